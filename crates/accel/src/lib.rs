@@ -1,0 +1,1 @@
+//! Ray tracing: an 8-wide BVH.

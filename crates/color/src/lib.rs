@@ -1,0 +1,5 @@
+//! Spectra, lanes and view transforms.
+
+mod lanes;
+
+pub use lanes::{LaneBasis, Lanes};

@@ -1,0 +1,1 @@
+//! Pixels: filters, sums, layers, EXR and PNG.

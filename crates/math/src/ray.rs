@@ -1,0 +1,50 @@
+use crate::Vec3;
+
+/// A ray: points `origin + t·direction`, 0 < t < `t_max`. The direction need not be of unit length (shadow rays
+/// between two points are not).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ray {
+    /// Start.
+    pub origin: Vec3,
+    /// Direction; `t` is measured in its length.
+    pub direction: Vec3,
+    /// Exclusive end.
+    pub t_max: f32,
+}
+
+impl Ray {
+    /// A ray without end.
+    pub fn new(origin: Vec3, direction: Vec3) -> Self {
+        Self { origin, direction, t_max: f32::INFINITY }
+    }
+
+    /// The point at `t`.
+    pub fn at(&self, t: f32) -> Vec3 {
+        self.origin + self.direction * t
+    }
+}
+
+/// Bound of the relative error of `n` rounded `f32` operations (Higham 2002, eq. 3.1): n·u/(1 − n·u), u = 2⁻²⁴.
+pub const fn gamma(n: u32) -> f32 {
+    let nu = n as f32 * (f32::EPSILON * 0.5);
+    nu / (1.0 - nu)
+}
+
+/// Where a ray that leaves along `w` starts: `p` moved along the normal `n` (either orientation) to the side of
+/// `w`, past the box of half-size `p_error` that is known to hold the true point, and rounded outward
+/// (Pharr, Jakob & Humphreys 2023, §6.8.6).
+pub fn offset_ray_origin(p: Vec3, p_error: Vec3, n: Vec3, w: Vec3) -> Vec3 {
+    let d = n.abs().dot(p_error);
+    let offset = if w.dot(n) < 0.0 { -n * d } else { n * d };
+    let moved = p + offset;
+    let away = |x: f32, o: f32| {
+        if o > 0.0 {
+            x.next_up()
+        } else if o < 0.0 {
+            x.next_down()
+        } else {
+            x
+        }
+    };
+    Vec3::new(away(moved.x, offset.x), away(moved.y, offset.y), away(moved.z, offset.z))
+}

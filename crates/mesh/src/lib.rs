@@ -1,0 +1,1 @@
+//! Triangle meshes: readers and generators.

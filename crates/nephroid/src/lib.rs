@@ -1,0 +1,1 @@
+//! Nephroid as a library.

@@ -1,0 +1,1 @@
+//! Photon records, the kd-tree and density estimation.

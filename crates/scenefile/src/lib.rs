@@ -1,0 +1,1 @@
+//! Scene descriptions: the TOML reader, its diagnostics and its reference.

@@ -1,0 +1,1 @@
+//! Jobs: which passes run, what is saved, whom to tell.

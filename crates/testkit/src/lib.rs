@@ -1,0 +1,1 @@
+//! Statistical tests: χ² for direction samplers, z-tests, furnaces.
