@@ -1,0 +1,49 @@
+use std::fmt;
+
+use crate::FilterKind;
+
+/// What film arithmetic refuses.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FilmError {
+    /// A filter's radius is not a positive finite number (pixels).
+    FilterRadius {
+        /// The filter asked for.
+        kind: FilterKind,
+        /// The radius given.
+        radius: f32,
+    },
+    /// Samples, tiles or films whose sizes (width, height in pixels) do not fit together.
+    Size {
+        /// Width and height wanted.
+        expected: [usize; 2],
+        /// Width and height found, or `[number of pixels, 1]` for a list.
+        found: [usize; 2],
+    },
+    /// This pass is in the film already.
+    DuplicatePass(u64),
+    /// More passes than the sums have room for ([`crate::Film::MAX_PASSES`]).
+    TooManyPasses,
+}
+
+impl fmt::Display for FilmError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::FilterRadius { kind, radius } => {
+                write!(
+                    f,
+                    "the radius of the {} filter must be positive and finite, not {radius}",
+                    kind.name()
+                )
+            }
+            Self::Size { expected, found } => write!(
+                f,
+                "sizes differ: {}x{} pixels expected, {}x{} found",
+                expected[0], expected[1], found[0], found[1]
+            ),
+            Self::DuplicatePass(pass) => write!(f, "pass {pass} is in the film already"),
+            Self::TooManyPasses => write!(f, "a film holds at most {} passes", crate::Film::MAX_PASSES),
+        }
+    }
+}
+
+impl std::error::Error for FilmError {}

@@ -1,0 +1,230 @@
+use std::ops::Range;
+
+use crate::fixed::MAX_VALUE;
+use crate::{FilmError, Layer};
+
+/// What the camera path of one pass gives for its pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PixelSample {
+    /// [`Layer::Direct`], linear Rec. 709, before the filter's weight.
+    pub direct: [f32; 3],
+    /// [`Layer::Caustic`], likewise.
+    pub caustic: [f32; 3],
+    /// [`Layer::Indirect`], likewise.
+    pub indirect: [f32; 3],
+    /// [`Layer::Albedo`].
+    pub albedo: [f32; 3],
+    /// [`Layer::Normal`]; 0 where nothing was hit.
+    pub normal: [f32; 3],
+    /// [`Layer::Depth`]; 0 or +∞ where nothing was hit.
+    pub depth: f32,
+    /// [`Layer::PhotonDensity`].
+    pub photon_density: f32,
+    /// [`crate::FilterSample::weight`].
+    pub weight: f32,
+}
+
+impl Default for PixelSample {
+    /// Black, nothing hit, weight 1.
+    fn default() -> Self {
+        Self {
+            direct: [0.0; 3],
+            caustic: [0.0; 3],
+            indirect: [0.0; 3],
+            albedo: [0.0; 3],
+            normal: [0.0; 3],
+            depth: 0.0,
+            photon_density: 0.0,
+            weight: 1.0,
+        }
+    }
+}
+
+impl PixelSample {
+    /// Radiance of all parts, before the weight.
+    pub fn beauty(&self) -> [f32; 3] {
+        std::array::from_fn(|i| self.direct[i] + self.caustic[i] + self.indirect[i])
+    }
+
+    /// Sets to 0 every layer with a value that is no number a film can hold; the layers that were wrong.
+    fn clean(&mut self) -> impl Iterator<Item = Layer> + use<> {
+        let mut wrong = [None; 8];
+        if !holds(self.weight) {
+            // Without its weight the radiance is worth nothing.
+            *self = Self { weight: 1.0, ..Self::default() };
+            wrong[0] = Some(Layer::Beauty);
+            return wrong.into_iter().flatten();
+        }
+        let limit = MAX_VALUE / self.weight.abs().max(1.0);
+        let colours = [
+            (Layer::Direct, &mut self.direct, limit),
+            (Layer::Caustic, &mut self.caustic, limit),
+            (Layer::Indirect, &mut self.indirect, limit),
+            (Layer::Albedo, &mut self.albedo, SMALL),
+            (Layer::Normal, &mut self.normal, SMALL),
+        ];
+        for (i, (layer, value, limit)) in colours.into_iter().enumerate() {
+            if !value.iter().all(|v| v.abs() <= limit) {
+                *value = [0.0; 3];
+                wrong[i] = Some(layer);
+            }
+        }
+        if self.depth.is_nan() || self.depth < 0.0 {
+            self.depth = 0.0;
+            wrong[5] = Some(Layer::Depth);
+        }
+        if !holds(self.photon_density) {
+            self.photon_density = 0.0;
+            wrong[6] = Some(Layer::PhotonDensity);
+        }
+        wrong.into_iter().flatten()
+    }
+}
+
+/// Greatest component of an albedo or normal that a film holds.
+pub(crate) const SMALL: f32 = 4.0;
+
+/// Also refuses NaN.
+fn holds(value: f32) -> bool {
+    value.abs() <= MAX_VALUE
+}
+
+/// A value that was kept out of a pass: not finite, beyond ±8.6·10⁹ (radiance after its weight, photon density),
+/// beyond ±4 (albedo, normal) or a negative depth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct NonFinite {
+    /// Index of the pixel: row · width + column; with seed and pass it is the key to replay the path.
+    pub pixel: u32,
+    /// The layer that was wrong and became 0 (beauty: the weight was, and all of them did).
+    pub layer: Layer,
+}
+
+/// One pass's contribution: one sample a pixel, 72 bytes each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PassFilm {
+    width: usize,
+    height: usize,
+    pixels: Vec<PixelSample>,
+    nonfinite: Vec<NonFinite>,
+    nonfinite_count: u64,
+}
+
+impl PassFilm {
+    /// Length of the list that [`nonfinite`](Self::nonfinite) gives.
+    pub const NONFINITE_LISTED: usize = 16;
+
+    /// From the samples of all pixels, row by row from the top, left to right.
+    ///
+    /// # Errors
+    /// [`FilmError::Size`] where there are not width × height samples, or more than 2³² − 1.
+    pub fn new(width: usize, height: usize, mut pixels: Vec<PixelSample>) -> Result<Self, FilmError> {
+        if width.checked_mul(height) != Some(pixels.len()) || u32::try_from(pixels.len()).is_err() {
+            return Err(FilmError::Size { expected: [width, height], found: [pixels.len(), 1] });
+        }
+        let (mut nonfinite, mut nonfinite_count) = (Vec::new(), 0);
+        for (i, pixel) in pixels.iter_mut().enumerate() {
+            for layer in pixel.clean() {
+                nonfinite_count += 1;
+                if nonfinite.len() < Self::NONFINITE_LISTED {
+                    nonfinite.push(NonFinite { pixel: i as u32, layer });
+                }
+            }
+        }
+        Ok(Self { width, height, pixels, nonfinite, nonfinite_count })
+    }
+
+    /// From consecutive pieces of the row-by-row order, as `par::map_chunks` gives them.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn from_chunks(
+        width: usize,
+        height: usize,
+        chunks: Vec<Vec<PixelSample>>,
+    ) -> Result<Self, FilmError> {
+        Self::new(width, height, chunks.concat())
+    }
+
+    /// From the tiles of `tiles` in index order, each row by row.
+    ///
+    /// # Errors
+    /// [`FilmError::Size`] where a tile is missing or of another size.
+    pub fn from_tiles(tiles: &Tiles, samples: &[Vec<PixelSample>]) -> Result<Self, FilmError> {
+        let (width, height) = (tiles.width, tiles.height);
+        if samples.len() != tiles.len() {
+            return Err(FilmError::Size { expected: [tiles.len(), 1], found: [samples.len(), 1] });
+        }
+        let mut pixels = vec![PixelSample::default(); width * height];
+        for (i, tile) in samples.iter().enumerate() {
+            let (xs, ys) = tiles.pixels(i);
+            if tile.len() != xs.len() * ys.len() {
+                return Err(FilmError::Size { expected: [xs.len(), ys.len()], found: [tile.len(), 1] });
+            }
+            for (y, row) in ys.zip(tile.chunks_exact(xs.len())) {
+                pixels[y * width + xs.start..y * width + xs.end].copy_from_slice(row);
+            }
+        }
+        Self::new(width, height, pixels)
+    }
+
+    /// Pixels a row.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Rows.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// The samples, row by row, cleaned of values that were not finite.
+    pub fn pixels(&self) -> &[PixelSample] {
+        &self.pixels
+    }
+
+    /// The first values that were kept out, in pixel order.
+    pub fn nonfinite(&self) -> &[NonFinite] {
+        &self.nonfinite
+    }
+
+    /// How many values were kept out.
+    pub fn nonfinite_count(&self) -> u64 {
+        self.nonfinite_count
+    }
+}
+
+/// An image cut into squares, row by row; those at the right and lower edge may be smaller.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tiles {
+    width: usize,
+    height: usize,
+    size: usize,
+}
+
+impl Tiles {
+    /// Tiles of `size` × `size` pixels (at least 1).
+    pub fn new(width: usize, height: usize, size: usize) -> Self {
+        Self { width, height, size: size.max(1) }
+    }
+
+    /// Number of tiles.
+    pub fn len(&self) -> usize {
+        self.columns() * self.height.div_ceil(self.size)
+    }
+
+    /// Whether the image has no pixel.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Columns and rows of pixels of tile `index`.
+    pub fn pixels(&self, index: usize) -> (Range<usize>, Range<usize>) {
+        let columns = self.columns().max(1);
+        let (x, y) = ((index % columns) * self.size, (index / columns) * self.size);
+        (x..(x + self.size).min(self.width), y..(y + self.size).min(self.height))
+    }
+
+    fn columns(&self) -> usize {
+        self.width.div_ceil(self.size)
+    }
+}
