@@ -1,0 +1,238 @@
+use math::{Bounds3, Vec3};
+
+use crate::kdtree::KdTree;
+use crate::leaf::{Block, LEAF, ROOM, unpack};
+
+/// A point that a search found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Its place in tree order.
+    pub slot: u32,
+    /// Its squared distance from the centre.
+    pub distance2: f32,
+}
+
+/// Memory of k-nearest searches, reused from one to the next: 16 bytes for each of k.
+#[derive(Clone, Debug, Default)]
+pub struct Scratch {
+    candidates: Vec<u64>,
+}
+
+impl Scratch {
+    /// Empty; grows with the first search.
+    pub fn new() -> Self {
+        Self::default()
+    }
+}
+
+/// The answer of [`KdTree::nearest`].
+#[derive(Clone, Copy, Debug)]
+pub struct Nearest<'a> {
+    found: &'a [u64],
+    limited: bool,
+}
+
+impl<'a> Nearest<'a> {
+    /// How many were found: k, or all within the greatest radius where these are fewer.
+    pub fn len(&self) -> usize {
+        self.found.len()
+    }
+
+    /// Whether nothing was found.
+    pub fn is_empty(&self) -> bool {
+        self.found.is_empty()
+    }
+
+    /// The farthest where k were found; `None` where fewer were.
+    pub fn kth(&self) -> Option<Hit> {
+        self.found.last().filter(|_| self.limited).map(|&c| hit(c))
+    }
+
+    /// The points: in no useful order, but the k-th comes last.
+    pub fn hits(&self) -> impl Iterator<Item = Hit> + 'a {
+        self.found.iter().map(|&c| hit(c))
+    }
+}
+
+#[inline]
+fn hit(candidate: u64) -> Hit {
+    let (distance2, slot) = unpack(candidate);
+    Hit { slot, distance2 }
+}
+
+/// A subtree that is still to be searched.
+#[derive(Clone, Copy)]
+struct Pending {
+    node: u32,
+    first_leaf: u32,
+    leaves: u32,
+    /// Distance from the centre to the cell along each axis.
+    offset: [f32; 3],
+    distance2: f32,
+}
+
+/// Subtrees wait at most one a level; 2³² points make 2²⁶ leaves.
+const MAX_DEPTH: usize = 32;
+
+/// (x² + y²) + z², rounded as in the leaf scans: since rounding is monotone, the bound of a box computed so never
+/// exceeds the computed distance of a point inside, and pruning loses nothing.
+#[inline]
+fn square(v: [f32; 3]) -> f32 {
+    (v[0] * v[0] + v[1] * v[1]) + v[2] * v[2]
+}
+
+#[inline]
+fn box_distance2(bounds: &Bounds3, c: Vec3) -> f32 {
+    let d = (bounds.min - c).max(c - bounds.max).max(Vec3::ZERO);
+    square(d.to_array())
+}
+
+impl KdTree {
+    /// Calls `visit` for each point within `radius` of `center` (boundary included), leaf by leaf.
+    #[inline]
+    pub fn within(&self, center: Vec3, radius: f32, mut visit: impl FnMut(Hit)) {
+        let scan = |block: &Block, leaf: usize, bound: f32, out: &mut [u64]| {
+            self.isa.scan(block, center, bound, (leaf * LEAF) as u32, out)
+        };
+        self.search_within(center, radius, scan, |c| visit(hit(c)));
+    }
+
+    /// The `k` points nearest to `center` among those within `max_radius` (boundary included). Among points at
+    /// equal distance the lower slot is nearer. O(k + log n) for points on a surface.
+    pub fn nearest<'s>(
+        &self,
+        center: Vec3,
+        k: usize,
+        max_radius: f32,
+        scratch: &'s mut Scratch,
+    ) -> Nearest<'s> {
+        let scan = |block: &Block, leaf: usize, bound: f32, out: &mut [u64]| {
+            self.isa.scan(block, center, bound, (leaf * LEAF) as u32, out)
+        };
+        let found = self.search_nearest(center, k, max_radius, scratch, scan);
+        Nearest { found, limited: found.len() == k }
+    }
+
+    /// Calls `visit` for each candidate that `scan` lets pass in the leaves that come within `radius`.
+    #[inline]
+    pub(crate) fn search_within(
+        &self,
+        center: Vec3,
+        radius: f32,
+        mut scan: impl FnMut(&Block, usize, f32, &mut [u64]) -> usize,
+        mut visit: impl FnMut(u64),
+    ) {
+        if radius.is_nan() || radius < 0.0 {
+            return;
+        }
+        let mut found = [0; ROOM];
+        self.traverse(center, radius * radius, |leaf, bound| {
+            let count = scan(&self.blocks[leaf], leaf, bound, &mut found);
+            found[..count.min(ROOM)].iter().for_each(|&c| visit(c));
+            bound
+        });
+    }
+
+    /// The k least candidates that `scan` lets pass, the k-th in the last place; fewer where there are fewer.
+    ///
+    /// Candidates are gathered unsorted in a buffer of about 2k; when it is full, quickselect keeps the k least,
+    /// which shrinks the radius: only the k-th distance is ever needed.
+    #[inline]
+    pub(crate) fn search_nearest<'s>(
+        &self,
+        center: Vec3,
+        k: usize,
+        max_radius: f32,
+        scratch: &'s mut Scratch,
+        mut scan: impl FnMut(&Block, usize, f32, &mut [u64]) -> usize,
+    ) -> &'s [u64] {
+        let k = k.min(self.len);
+        if k == 0 || max_radius.is_nan() || max_radius < 0.0 {
+            return &[];
+        }
+        let full = 2 * k;
+        let room = full + ROOM;
+        if scratch.candidates.len() < room {
+            scratch.candidates.resize(room, 0);
+        }
+        let buffer = &mut scratch.candidates[..];
+        let mut count = 0;
+        self.traverse(center, max_radius * max_radius, |leaf, bound| {
+            count += scan(&self.blocks[leaf], leaf, bound, &mut buffer[count..]);
+            if count < full {
+                return bound;
+            }
+            let (_, kth, _) = buffer[..count].select_nth_unstable(k - 1);
+            count = k;
+            unpack(*kth).0
+        });
+        if count >= k {
+            buffer[..count].select_nth_unstable(k - 1);
+            count = k;
+        }
+        &scratch.candidates[..count]
+    }
+
+    /// Calls `visit(leaf, bound)` for the leaves whose squared distance from `center` is at most `bound`, near ones
+    /// first as far as the tree knows; `visit` returns the next bound, no greater than the last.
+    #[inline]
+    fn traverse(&self, center: Vec3, mut bound: f32, mut visit: impl FnMut(usize, f32) -> f32) {
+        if self.blocks.is_empty() {
+            return;
+        }
+        let c = center.to_array();
+        let root = Pending {
+            node: 0,
+            first_leaf: 0,
+            leaves: self.blocks.len() as u32,
+            offset: [0.0; 3],
+            distance2: 0.0,
+        };
+        let mut stack = [root; MAX_DEPTH];
+        let mut depth = 0;
+        let mut at = root;
+        loop {
+            while at.leaves > 1 {
+                let node = &self.nodes[at.node as usize];
+                let axis = (node.axis % 3) as usize;
+                let (past_left, before_right) = (c[axis] - node.left_max, node.right_min - c[axis]);
+                let half = at.leaves / 2;
+                let mut near = Pending { node: at.node + 1, leaves: half, ..at };
+                let mut far = Pending {
+                    node: at.node + half,
+                    first_leaf: at.first_leaf + half,
+                    leaves: at.leaves - half,
+                    ..at
+                };
+                near.offset[axis] = at.offset[axis].max(past_left);
+                far.offset[axis] = at.offset[axis].max(before_right);
+                if past_left > before_right {
+                    std::mem::swap(&mut near, &mut far);
+                }
+                far.distance2 = square(far.offset);
+                near.distance2 = square(near.offset);
+                if far.distance2 <= bound {
+                    stack[depth % MAX_DEPTH] = far;
+                    depth += 1;
+                }
+                at = near;
+            }
+            let leaf = at.first_leaf as usize;
+            if at.distance2 <= bound && box_distance2(&self.leaf_bounds[leaf], center) <= bound {
+                bound = visit(leaf, bound);
+            }
+            loop {
+                if depth == 0 {
+                    return;
+                }
+                depth -= 1;
+                at = stack[depth % MAX_DEPTH];
+                if at.distance2 <= bound {
+                    break;
+                }
+            }
+        }
+    }
+}
+
+const _: () = assert!(size_of::<Pending>() == 28);
