@@ -1,1 +1,30 @@
 //! Scattering functions.
+//!
+//! A [`Bsdf`] is a small `Copy` value made at a hit: a shading frame, a geometric normal and one of a closed set of
+//! kinds. Directions are unit vectors in the space of the frame that point away from the surface; `wo` is known and
+//! `wi` is sampled, whichever way light travels ([`TransportMode`] says which). [`Bsdf::eval`] returns f without the
+//! cosine; the cosine in [`BsdfSample::weight`] is that to the *shading* normal.
+//!
+//! Sides. A reflecting lobe needs `wi` and `wo` on the same side of the geometric *and* of the shading normal, a
+//! transmitting lobe on opposite sides of both. Elsewhere f, densities and samples are 0, so that no light leaks
+//! through a surface whatever its shading normals; the rule is symmetric, so camera paths and photons agree.
+//! Opaque kinds scatter on the side of `wo`, front and back alike.
+
+mod bsdf;
+mod coat_albedo;
+mod conductor;
+mod cosine;
+mod dielectric;
+mod diffuse;
+mod fresnel;
+mod ggx;
+mod ggx_albedo;
+mod lobes;
+mod mirror;
+mod null;
+mod phong;
+mod plastic;
+
+pub use bsdf::{Bsdf, BsdfKind, BsdfSample, DeltaLobe};
+pub use fresnel::{fresnel_conductor, fresnel_dielectric, fresnel_dielectric_mean};
+pub use lobes::{Lobes, TransportMode};
