@@ -1,0 +1,319 @@
+//! Lights: sampled toward a receiver (`li`), along emission (`le`) and along emission aimed at chosen targets.
+//!
+//! World space throughout; a light owns a copy of its geometry. One file per variant; [`Light`] is the only place
+//! that tells them apart. Units: radiance W/(m²·sr), intensity W/sr, irradiance W/m², flux W (lane by lane).
+//!
+//! Photon flux: one of `n` photons carries `radiance·cos / (n·p_light·pdf_a·pdf_w)`. A sampler that returns `None` has
+//! emitted a dark photon: it counts among the `n`, which keeps powers exact.
+
+pub(crate) mod aim;
+mod area;
+mod directional;
+mod disk;
+mod emission;
+mod environment;
+mod picker;
+mod point;
+mod sphere;
+mod spot;
+mod triangles;
+
+use color::Lanes;
+use math::{Bounds3, Vec3};
+
+use crate::target::Targets;
+pub use area::{AreaEmission, Sides};
+pub use directional::DirectionalLight;
+pub use disk::DiskLight;
+use emission::{Emission, Origin};
+pub use environment::EnvironmentLight;
+pub use picker::LightPicker;
+pub use point::PointLight;
+pub use sphere::SphereLight;
+pub use spot::SpotLight;
+pub use triangles::TriangleLight;
+
+/// A light.
+#[derive(Clone, Debug)]
+pub enum Light {
+    /// A point that shines equally in all directions.
+    Point(PointLight),
+    /// A point that shines within a cone.
+    Spot(SpotLight),
+    /// Parallel light from infinity.
+    Directional(DirectionalLight),
+    /// Equal radiance from everywhere at infinity.
+    Environment(EnvironmentLight),
+    /// A sphere.
+    Sphere(SphereLight),
+    /// A flat disc.
+    Disk(DiskLight),
+    /// Triangles: quads and meshes.
+    Triangles(TriangleLight),
+}
+
+/// Light that would arrive at a receiver, were nothing in between.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LiSample {
+    /// Unit direction from the receiver to the light.
+    pub wi: Vec3,
+    /// Distance to the light; infinite for lights at infinity.
+    pub distance: f32,
+    /// Radiance; for delta lights intensity/d² or irradiance. Used as `radiance·f·|cos|/pdf_w`.
+    pub radiance: Lanes,
+    /// Density per steradian at the receiver; 1 for delta lights.
+    pub pdf_w: f32,
+    /// Whether no other technique can find this light.
+    pub is_delta: bool,
+    /// Point on the light; for lights at infinity a point along `wi` outside the scene.
+    pub p: Vec3,
+    /// Half-size of the box about `p` that holds the true point.
+    pub p_error: Vec3,
+    /// Unit normal of the light at `p` on the side of the receiver; zero where there is none.
+    pub n: Vec3,
+}
+
+/// The start of a light path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LeSample {
+    /// Start; for lights at infinity on a disc outside the scene.
+    pub p: Vec3,
+    /// Half-size of the box about `p` that holds the true point.
+    pub p_error: Vec3,
+    /// Unit normal on the side of `w`; zero for point-like lights; `w` for lights at infinity.
+    pub n: Vec3,
+    /// Unit direction of flight.
+    pub w: Vec3,
+    /// Emitted radiance, or intensity (point, spot), or irradiance (directional).
+    pub radiance: Lanes,
+    /// Cosine between `n` and `w` at an area light; 1 for all others.
+    pub cos: f32,
+    /// Density of `p` per area; 1 where the position is delta. For lights at infinity per area of the disc.
+    pub pdf_a: f32,
+    /// Density of `w` per steradian; 1 where the direction is delta.
+    pub pdf_w: f32,
+    /// Triangle index for [`Light::Triangles`], else 0.
+    pub prim: u32,
+}
+
+/// A point of an area light that a ray has found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightHit {
+    /// Position.
+    pub p: Vec3,
+    /// Unit geometric normal of the front side (for a sphere: outward).
+    pub ng: Vec3,
+    /// Triangle index for [`Light::Triangles`], else 0.
+    pub prim: u32,
+}
+
+impl Light {
+    /// A direction from the receiver `p` to the light. `None`: no light comes from the drawn point.
+    ///
+    /// `_n` is the receiver's normal or zero; no variant shapes its density by it, so that [`Self::pdf_li_w`] needs
+    /// none. `u_pick` chooses among triangles; `u` the point or direction.
+    pub fn sample_li(&self, p: Vec3, _n: Vec3, u_pick: f32, u: [f32; 2]) -> Option<LiSample> {
+        match self {
+            Self::Point(l) => l.sample_li(p),
+            Self::Spot(l) => l.sample_li(p),
+            Self::Directional(l) => l.sample_li(p),
+            Self::Environment(l) => l.sample_li(p, u),
+            Self::Sphere(l) => l.sample_li(p, u),
+            Self::Disk(l) => l.sample_li(p, u),
+            Self::Triangles(l) => l.sample_li(p, u_pick, u),
+        }
+    }
+
+    /// Density per steradian with which [`Self::sample_li`] gives `wi` at the receiver `p`; `hit` is where the ray
+    /// meets this light (`None`: it escapes the scene). 0 for delta lights and where the light does not shine
+    /// toward `p`.
+    pub fn pdf_li_w(&self, p: Vec3, wi: Vec3, hit: Option<LightHit>) -> f32 {
+        match (self, hit) {
+            (Self::Environment(l), None) => l.pdf_li_w(),
+            (Self::Sphere(l), Some(hit)) => l.pdf_li_w(p, wi, hit),
+            (Self::Disk(l), Some(hit)) => l.surface().pdf_li_w(l.area(), p, wi, hit),
+            (Self::Triangles(l), Some(hit)) => l.surface().pdf_li_w(l.area(), p, wi, hit),
+            _ => 0.0,
+        }
+    }
+
+    /// Radiance of an area light that leaves along `w` (unit) where the geometric normal of the front side is
+    /// `ng`. Zero for lights without a surface.
+    pub fn emitted(&self, ng: Vec3, w: Vec3) -> Lanes {
+        match self {
+            Self::Sphere(l) => l.surface().emitted(ng, w),
+            Self::Disk(l) => l.surface().emitted(ng, w),
+            Self::Triangles(l) => l.surface().emitted(ng, w),
+            Self::Point(_) | Self::Spot(_) | Self::Directional(_) | Self::Environment(_) => Lanes::ZERO,
+        }
+    }
+
+    /// Radiance seen by a ray that leaves the scene along `w`. Zero for all but environments.
+    pub fn escaped(&self, _w: Vec3) -> Lanes {
+        match self {
+            Self::Environment(l) => l.radiance(),
+            _ => Lanes::ZERO,
+        }
+    }
+
+    /// The start of a light path: cosine-weighted over area lights (uniform in area), uniform over the sphere for
+    /// points, proportional to intensity for spots, over the scene's bounding disc for lights at infinity.
+    /// `None`: a dark photon.
+    pub fn sample_le(&self, u_pick: f32, u_pos: [f32; 2], u_dir: [f32; 2]) -> Option<LeSample> {
+        match self {
+            Self::Directional(l) => l.sample_le(u_pos),
+            Self::Environment(l) => l.sample_le(u_pos, u_dir),
+            _ => {
+                let origin = self.origin(u_pick, u_pos)?;
+                let emission = self.emission(origin.ng)?;
+                let (w, pdf_w) = emission.sample(u_dir)?;
+                self.leave(&origin, &emission, w, pdf_w)
+            }
+        }
+    }
+
+    /// Densities (per area, per steradian) with which [`Self::sample_le`] starts at `p` along `w`; 1 where delta.
+    /// `ng` is the geometric normal of the front side of an area light, else unused.
+    pub fn pdf_le(&self, p: Vec3, ng: Vec3, w: Vec3) -> (f32, f32) {
+        match self {
+            Self::Directional(l) => (l.pdf_le_a(p), 1.0),
+            Self::Environment(l) => (l.pdf_le_a(p, w), l.pdf_li_w()),
+            _ => (self.origin_pdf_a(), self.emission(ng).map_or(0.0, |e| e.pdf_w(w))),
+        }
+    }
+
+    /// The start of a light path aimed at `targets`: position as in [`Self::sample_le`], direction from a mixture
+    /// of the cones that the targets' spheres subtend; for lights at infinity the position comes from a mixture of
+    /// the spheres' shadows. The densities returned are those of the whole mixtures. `None`: a dark photon; it was
+    /// drawn below the horizon or misses the boxes of all targets.
+    pub fn sample_le_toward(
+        &self,
+        targets: &Targets,
+        u_pick: f32,
+        u_pos: [f32; 2],
+        u_dir: [f32; 2],
+    ) -> Option<LeSample> {
+        match self {
+            Self::Directional(l) => l.sample_le_toward(targets, u_pick, u_pos),
+            Self::Environment(l) => l.sample_le_toward(targets, u_pick, u_pos, u_dir),
+            _ => {
+                let origin = self.origin(u_pick, u_pos)?;
+                let emission = self.emission(origin.ng)?;
+                let (w, pdf_w) = aim::sample(targets, origin.p, &emission, u_dir)?;
+                self.leave(&origin, &emission, w, pdf_w)
+            }
+        }
+    }
+
+    /// Densities with which [`Self::sample_le_toward`] starts at `p` along `w`, as in [`Self::pdf_le`].
+    pub fn pdf_le_toward(&self, targets: &Targets, p: Vec3, ng: Vec3, w: Vec3) -> (f32, f32) {
+        match self {
+            Self::Directional(l) => (targets.shadow_pdf_a(p, l.direction(), None), 1.0),
+            Self::Environment(l) => (targets.shadow_pdf_a(p, w, None), l.pdf_li_w()),
+            _ => {
+                let pdf_w = self.emission(ng).map_or(0.0, |e| aim::pdf_w(targets, p, &e, w));
+                (self.origin_pdf_a(), pdf_w)
+            }
+        }
+    }
+
+    /// Emitted flux; of lights at infinity the flux that enters the scene's bounding sphere (0 before
+    /// [`Self::preprocess`]).
+    pub fn power(&self) -> Lanes {
+        match self {
+            Self::Point(l) => l.power(),
+            Self::Spot(l) => l.power(),
+            Self::Directional(l) => l.power(),
+            Self::Environment(l) => l.power(),
+            Self::Sphere(l) => l.surface().power(l.area()),
+            Self::Disk(l) => l.surface().power(l.area()),
+            Self::Triangles(l) => l.surface().power(l.area()),
+        }
+    }
+
+    /// Whether only [`Self::sample_li`] can find it: no ray hits it.
+    pub fn is_delta(&self) -> bool {
+        matches!(self, Self::Point(_) | Self::Spot(_) | Self::Directional(_))
+    }
+
+    /// Whether it lies at infinity.
+    pub fn is_infinite(&self) -> bool {
+        matches!(self, Self::Directional(_) | Self::Environment(_))
+    }
+
+    /// Bounds of its points; empty for lights at infinity.
+    pub fn bounds(&self) -> Bounds3 {
+        match self {
+            Self::Point(l) => Bounds3::of_points([l.position()]),
+            Self::Spot(l) => Bounds3::of_points([l.position()]),
+            Self::Directional(_) | Self::Environment(_) => Bounds3::EMPTY,
+            Self::Sphere(l) => l.bounds(),
+            Self::Disk(l) => l.bounds(),
+            Self::Triangles(l) => l.bounds(),
+        }
+    }
+
+    /// Tells lights at infinity how far the scene reaches; must be called before they are asked for `le` samples
+    /// or power.
+    pub fn preprocess(&mut self, scene_bounds: Bounds3) {
+        match self {
+            Self::Directional(l) => l.preprocess(scene_bounds),
+            Self::Environment(l) => l.preprocess(scene_bounds),
+            _ => {}
+        }
+    }
+
+    /// A point of a light that is not at infinity, uniform in area.
+    fn origin(&self, u_pick: f32, u_pos: [f32; 2]) -> Option<Origin> {
+        match self {
+            Self::Point(l) => Some(Origin::at_point(l.position())),
+            Self::Spot(l) => Some(Origin::at_point(l.position())),
+            Self::Directional(_) | Self::Environment(_) => None,
+            Self::Sphere(l) => Some(l.origin(u_pos)),
+            Self::Disk(l) => Some(l.origin(u_pos)),
+            Self::Triangles(l) => Some(l.origin(u_pick, u_pos)),
+        }
+    }
+
+    /// Density of [`Self::origin`] per area; 1 for points.
+    fn origin_pdf_a(&self) -> f32 {
+        match self {
+            Self::Sphere(l) => 1.0 / l.area(),
+            Self::Disk(l) => 1.0 / l.area(),
+            Self::Triangles(l) => 1.0 / l.area(),
+            _ => 1.0,
+        }
+    }
+
+    /// How light leaves a point with front normal `ng`; `None` for lights at infinity.
+    fn emission(&self, ng: Vec3) -> Option<Emission<'_>> {
+        match self {
+            Self::Point(l) => Some(Emission::Uniform(l.intensity())),
+            Self::Spot(l) => Some(Emission::Spot(l)),
+            Self::Directional(_) | Self::Environment(_) => None,
+            Self::Sphere(l) => Some(Emission::Lambert(l.surface(), ng)),
+            Self::Disk(l) => Some(Emission::Lambert(l.surface(), ng)),
+            Self::Triangles(l) => Some(Emission::Lambert(l.surface(), ng)),
+        }
+    }
+
+    fn leave(&self, origin: &Origin, emission: &Emission<'_>, w: Vec3, pdf_w: f32) -> Option<LeSample> {
+        let (radiance, cos, n) = emission.along(w)?;
+        (pdf_w > 0.0).then_some(LeSample {
+            p: origin.p,
+            p_error: origin.p_error,
+            n,
+            w,
+            radiance,
+            cos,
+            pdf_a: origin.pdf_a,
+            pdf_w,
+            prim: origin.prim,
+        })
+    }
+}
+
+/// Whether all lanes are finite and none is negative.
+fn is_emission(lanes: Lanes) -> bool {
+    lanes.is_finite() && lanes.0.min_element() >= 0.0
+}

@@ -1,0 +1,98 @@
+use sampling::Discrete;
+
+use super::Light;
+use crate::target::Targets;
+
+/// Chooses a light; the probabilities are exact, so any choice leaves estimates unbiased.
+#[derive(Clone, Debug, Default)]
+pub struct LightPicker {
+    picks: Discrete,
+}
+
+/// Samples per light from which the power toward targets is estimated.
+const ESTIMATE_SAMPLES: u32 = 512;
+
+impl LightPicker {
+    /// For direct light: ½ by power, ½ uniform over the lights that have any.
+    pub fn direct(lights: &[Light]) -> Self {
+        Self::with_floor(&powers(lights))
+    }
+
+    /// For photons of the global map: by power, so that all carry like flux.
+    pub fn photons(lights: &[Light]) -> Self {
+        Self { picks: Discrete::new(powers(lights)) }
+    }
+
+    /// For caustic photons: ½ by the power that [`Light::sample_le_toward`] sends to the targets' boxes (estimated
+    /// from a fixed low-discrepancy set), ½ uniform over the lights that send any: however dim, a light keeps at
+    /// least 1/(2·lights) of the photons.
+    pub fn caustics(lights: &[Light], targets: &Targets) -> Self {
+        let sent: Vec<f64> = lights.iter().map(|light| power_toward(light, targets)).collect();
+        // A light that the estimate missed altogether keeps its share as long as it shines at all.
+        let seen: Vec<bool> = powers(lights).iter().map(|&p| p > 0.0).collect();
+        Self::mixed(&sent, &seen)
+    }
+
+    fn with_floor(weights: &[f64]) -> Self {
+        let seen: Vec<bool> = weights.iter().map(|&w| w > 0.0).collect();
+        Self::mixed(weights, &seen)
+    }
+
+    fn mixed(weights: &[f64], lit: &[bool]) -> Self {
+        let total: f64 = weights.iter().sum();
+        let count = lit.iter().filter(|&&l| l).count() as f64;
+        let share = |(&w, &lit): (&f64, &bool)| {
+            let by_weight = if total > 0.0 { w / total } else { 0.0 };
+            if lit { by_weight + 1.0 / count } else { 0.0 }
+        };
+        Self { picks: Discrete::new(weights.iter().zip(lit).map(share)) }
+    }
+
+    /// Number of lights.
+    pub fn len(&self) -> usize {
+        self.picks.len()
+    }
+
+    /// Whether there is no light.
+    pub fn is_empty(&self) -> bool {
+        self.picks.is_empty()
+    }
+
+    /// Index of a light for `u` in [0, 1), its probability, and `u` mapped back to [0, 1) for reuse. Where there is
+    /// no light the probability is 0.
+    #[inline]
+    pub fn sample(&self, u: f32) -> (usize, f32, f32) {
+        self.picks.sample(u)
+    }
+
+    /// Probability of a light.
+    #[inline]
+    pub fn pmf(&self, light: usize) -> f32 {
+        self.picks.pmf(light)
+    }
+}
+
+fn powers(lights: &[Light]) -> Vec<f64> {
+    lights.iter().map(|l| f64::from(l.power().mean())).collect()
+}
+
+/// Flux sent toward the targets, in watts (mean of the lanes).
+fn power_toward(light: &Light, targets: &Targets) -> f64 {
+    let mut sum = 0.0;
+    for i in 0..ESTIMATE_SAMPLES {
+        let u = kronecker(i);
+        if let Some(s) = light.sample_le_toward(targets, u[0], [u[1], u[2]], [u[3], u[4]]) {
+            sum += f64::from(s.radiance.mean() * s.cos) / (f64::from(s.pdf_a) * f64::from(s.pdf_w));
+        }
+    }
+    sum / f64::from(ESTIMATE_SAMPLES)
+}
+
+/// Point `i` of the Kronecker sequence whose steps are the powers of 1/φ₅, φ₅⁶ = φ₅ + 1 (Roberts 2018).
+fn kronecker(i: u32) -> [f32; 5] {
+    const STEP: f64 = 1.0 / 1.134_724_138_401_519_5;
+    std::array::from_fn(|k| {
+        let x = (0.5 + f64::from(i) * STEP.powi(k as i32 + 1)).fract();
+        (x as f32).min(math::ONE_MINUS_EPSILON)
+    })
+}
