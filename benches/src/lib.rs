@@ -1,1 +1,4 @@
 //! Benchmarks against peers.
+
+mod nanoflann;
+pub mod search;
