@@ -113,7 +113,7 @@ fn inverse_falloff_cdf(u: f64) -> f64 {
         }
         let slope = t * t * (6.0 - 4.0 * t);
         let next = t - f / slope;
-        let next = if next > low && next < high { next } else { 0.5 * (low + high) };
+        let next = if next >= low && next <= high { next } else { 0.5 * (low + high) };
         if (next - t).abs() < 1e-13 {
             return next;
         }
