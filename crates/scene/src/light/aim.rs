@@ -7,8 +7,8 @@ use super::emission::Emission;
 use crate::target::{MAX_TARGETS, Targets};
 
 /// The mixture at one point x: target j is chosen with probability ½·Ωⱼwⱼ/ΣΩw + ½/J over the targets that the light
-/// can reach; the direction is then uniform in the cone that its sphere subtends, or, where x lies in the sphere,
-/// the light's own.
+/// can reach; the direction is then uniform in the cone that its sphere subtends, or the light's own where that is
+/// narrower and where x lies in the sphere.
 struct Mixture {
     len: usize,
     lobes: [Lobe; MAX_TARGETS],
@@ -40,6 +40,7 @@ impl Mixture {
     fn new(targets: &Targets, x: Vec3, emission: &Emission<'_>) -> Self {
         let empty = Lobe { q: 0.0, axis: Vec3::Z, one_minus_cos: 0.0 };
         let mut mixture = Self { len: 0, lobes: [empty; MAX_TARGETS] };
+        let own = emission.solid_angle();
         let mut total = 0.0;
         for t in targets.as_slice() {
             let to_center = t.center - x;
@@ -50,13 +51,14 @@ impl Mixture {
             let sin2 = f64::from(t.radius).powi(2) / d2;
             let lobe = &mut mixture.lobes[mixture.len];
             mixture.len += 1;
-            let omega = if sin2 < 1.0 {
+            let one_minus_cos = if sin2 < 1.0 { sin2 / (1.0 + (1.0 - sin2).sqrt()) } else { 2.0 };
+            let mut omega = 2.0 * PI * one_minus_cos as f32;
+            if omega < own {
                 lobe.axis = (to_center.as_dvec3() / d2.sqrt()).as_vec3();
-                lobe.one_minus_cos = ((sin2 / (1.0 + (1.0 - sin2).sqrt())) as f32).max(f32::MIN_POSITIVE);
-                2.0 * PI * lobe.one_minus_cos
+                lobe.one_minus_cos = (one_minus_cos as f32).max(f32::MIN_POSITIVE);
             } else {
-                4.0 * PI
-            };
+                omega = own;
+            }
             lobe.q = omega * t.weight;
             total += lobe.q;
         }
@@ -73,7 +75,8 @@ impl Mixture {
     }
 }
 
-/// A direction from `x` and its density per steradian; `None` where the ray misses the boxes of all targets.
+/// A direction from `x` and its density per steradian; `None` where nothing leaves along it and where
+/// the ray misses the boxes of all targets.
 pub(super) fn sample(
     targets: &Targets,
     x: Vec3,
@@ -88,12 +91,21 @@ pub(super) fn sample(
     } else {
         Frame::from_z(lobe.axis).to_world(warp::cone([u0, u[1]], lobe.one_minus_cos)).normalize()
     };
-    targets.hit_by(x, w).then(|| (w, mixture.pdf_w(emission, w, Some(j))))
+    useful(targets, x, emission, w).then(|| (w, mixture.pdf_w(emission, w, Some(j))))
+}
+
+/// Whether light leaves along `w` and the ray meets the box of some target.
+fn useful(targets: &Targets, x: Vec3, emission: &Emission<'_>, w: Vec3) -> bool {
+    emission.along(w).is_some() && targets.hit_by(x, w)
 }
 
 /// Density of [`sample`] per steradian.
 pub(super) fn pdf_w(targets: &Targets, x: Vec3, emission: &Emission<'_>, w: Vec3) -> f32 {
-    if targets.hit_by(x, w) { Mixture::new(targets, x, emission).pdf_w(emission, w, None) } else { 0.0 }
+    if useful(targets, x, emission, w) {
+        Mixture::new(targets, x, emission).pdf_w(emission, w, None)
+    } else {
+        0.0
+    }
 }
 
 /// Index drawn with the given probabilities (sum 1), and `u` mapped back to [0, 1).

@@ -59,8 +59,12 @@ impl AreaEmission {
 
     /// Flux: π·L·A for each emitting side.
     pub fn power(&self, area: f32) -> Lanes {
-        let sides = if self.sides == Sides::Both { 2.0 } else { 1.0 };
-        self.radiance * (PI * area * sides)
+        self.radiance * (self.spread() * area)
+    }
+
+    /// Flux over radiance and area: π for each emitting side.
+    pub(super) fn spread(&self) -> f32 {
+        if self.sides == Sides::Both { 2.0 * PI } else { PI }
     }
 
     /// Cosine-weighted over the emitting sides.

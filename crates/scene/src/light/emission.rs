@@ -1,7 +1,7 @@
 //! What light paths of all lights at finite places share: a point, and a distribution of directions there.
 
 use color::Lanes;
-use math::{Vec3, gamma};
+use math::{PI, Vec3, gamma};
 use sampling::warp;
 
 use super::{AreaEmission, SpotLight};
@@ -72,6 +72,15 @@ impl Emission<'_> {
                 let (n, cos) = surface.sides.facing(*ng, w)?;
                 Some((surface.radiance, cos, n))
             }
+        }
+    }
+
+    /// Solid angle over which the light is spread: flux over greatest intensity.
+    pub fn solid_angle(&self) -> f32 {
+        match self {
+            Self::Uniform(_) => 4.0 * PI,
+            Self::Spot(spot) => spot.solid_angle() as f32,
+            Self::Lambert(surface, _) => surface.spread(),
         }
     }
 

@@ -45,7 +45,7 @@ impl SpotLight {
     }
 
     /// ∫ falloff dω.
-    fn solid_angle(&self) -> f64 {
+    pub(super) fn solid_angle(&self) -> f64 {
         std::f64::consts::PI * (self.inner + self.outer)
     }
 
