@@ -5,15 +5,27 @@
 //! array, [`PassFilm`]. A [`Film`] is the exact sum of passes: integers, so any order of adding or merging gives the
 //! same bits.
 
+mod compare;
 mod error;
+mod exr_file;
 mod film;
 mod filter;
 mod fixed;
+mod flip;
 mod layer;
+mod output;
 mod pass_film;
+mod png_file;
+mod read;
 
+pub use compare::{CompareError, Comparison, compare, difference};
 pub use error::FilmError;
+pub use exr_file::{ExrOptions, Precision, encode_exr, encode_exr_rgb, write_exr};
 pub use film::{Film, FilmNonFinite};
 pub use filter::{Filter, FilterKind, FilterSample};
+pub use flip::flip;
 pub use layer::Layer;
+pub use output::{OutputError, OutputErrorKind, check_writable, write_atomically};
 pub use pass_film::{NonFinite, PassFilm, PixelSample, Tiles};
+pub use png_file::{PngOptions, encode_png, encode_png_bytes, write_png};
+pub use read::{ReadError, ReadErrorKind, RgbImage};
