@@ -1,10 +1,19 @@
 //! Triangle meshes: readers and generators.
 //!
 //! [`read`] loads OBJ and PLY files, [`shapes`] makes the shapes that scene files name. Every mesh that comes out of
-//! here has passed [`TriangleMesh::validate`] or satisfies it by construction.
+//! here satisfies [`TriangleMesh::validate`].
 
+mod assemble;
 mod error;
+pub mod obj;
+pub mod ply;
+mod polygon;
+mod read;
+pub mod shapes;
+mod text;
+mod topology;
 mod triangle_mesh;
 
 pub use error::{MeshError, Place};
+pub use read::read;
 pub use triangle_mesh::TriangleMesh;

@@ -32,7 +32,10 @@ impl TriangleMesh {
             }
         }
         let not_finite = |name: &str, i: usize| {
-            MeshError::whole(format!("{name} of vertex {i} is not finite"), "repair the mesh: export it again")
+            MeshError::whole(
+                format!("{name} of vertex {i} is not finite"),
+                "repair the mesh: export it again",
+            )
         };
         if let Some(i) = self.positions.iter().position(|p| !p.is_finite()) {
             return Err(not_finite("the position", i));

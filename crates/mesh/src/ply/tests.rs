@@ -1,0 +1,222 @@
+use super::*;
+use expect_test::{Expect, expect};
+
+const TWO_TRIANGLES: &str = "ply\nformat ascii 1.0\ncomment made by hand\nelement vertex 4\nproperty float x\n\
+    property float y\nproperty float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n\
+    0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n";
+
+fn square() -> TriangleMesh {
+    parse(TWO_TRIANGLES.as_bytes()).unwrap()
+}
+
+fn refused(bytes: &[u8], expected: Expect) {
+    expected.assert_eq(&parse(bytes).unwrap_err().to_string());
+}
+
+/// A property's type, and how a value is written in it.
+#[derive(Clone, Copy)]
+struct Writer {
+    big: bool,
+}
+
+impl Writer {
+    fn put(self, out: &mut Vec<u8>, kind: &str, value: f64) {
+        let mut bytes = match kind {
+            "char" => (value as i8).to_le_bytes().to_vec(),
+            "uchar" => (value as u8).to_le_bytes().to_vec(),
+            "short" => (value as i16).to_le_bytes().to_vec(),
+            "ushort" => (value as u16).to_le_bytes().to_vec(),
+            "int" => (value as i32).to_le_bytes().to_vec(),
+            "uint" => (value as u32).to_le_bytes().to_vec(),
+            "float" => (value as f32).to_le_bytes().to_vec(),
+            _ => value.to_le_bytes().to_vec(),
+        };
+        if self.big {
+            bytes.reverse();
+        }
+        out.extend(bytes);
+    }
+}
+
+/// The unit square with odd extras: uvs, normals, colours, lists among vertices, elements that are not known.
+fn square_in_binary(
+    big: bool,
+    float: &str,
+    length: &str,
+    index: &str,
+    polygon: bool,
+    extras: bool,
+) -> Vec<u8> {
+    let order = if big { "big" } else { "little" };
+    let mut header = format!("ply\r\nformat binary_{order}_endian 1.0\r\n");
+    if extras {
+        header += "element camera 2\nproperty double f\nproperty list ushort short marks\nelement nothing 99999999\n";
+    }
+    header += &format!("element vertex 4\nproperty uchar red\nproperty {float} z\nproperty {float} x\n");
+    if extras {
+        header += "property list char float weights\n";
+    }
+    header += &format!("property {float} y\nproperty {float} s\nproperty {float} t\n");
+    header += &format!("element face {}\nproperty ushort material\n", if polygon { 1 } else { 2 });
+    header += &format!("property list {length} {index} vertex_index\nproperty uchar flags\n");
+    if extras {
+        header += "property list uchar float texcoord\n";
+    }
+    header += "end_header\n";
+    let w = Writer { big };
+    let mut out = header.into_bytes();
+    if extras {
+        for marks in [0, 3] {
+            w.put(&mut out, "double", 1.5);
+            w.put(&mut out, "ushort", f64::from(marks));
+            (0..marks).for_each(|m| w.put(&mut out, "short", f64::from(m)));
+        }
+    }
+    for (x, y) in [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)] {
+        w.put(&mut out, "uchar", 200.0);
+        w.put(&mut out, float, 0.0);
+        w.put(&mut out, float, x);
+        if extras {
+            w.put(&mut out, "char", 1.0);
+            w.put(&mut out, "float", 7.0);
+        }
+        for value in [y, x, y] {
+            w.put(&mut out, float, value);
+        }
+    }
+    let faces: &[&[u32]] = if polygon { &[&[0, 1, 2, 3]] } else { &[&[0, 1, 2], &[0, 2, 3]] };
+    for face in faces {
+        w.put(&mut out, "ushort", 513.0);
+        w.put(&mut out, length, face.len() as f64);
+        face.iter().for_each(|&i| w.put(&mut out, index, f64::from(i)));
+        w.put(&mut out, "uchar", 3.0);
+        if extras {
+            w.put(&mut out, "uchar", 1.0);
+            w.put(&mut out, "float", 0.5);
+        }
+    }
+    out
+}
+
+#[test]
+fn every_layout_gives_the_same_square() {
+    let expected = square();
+    expected.validate().unwrap();
+    assert_eq!(expected.indices, [[0, 1, 2], [0, 2, 3]]);
+    for big in [false, true] {
+        for float in ["float", "double", "short"] {
+            for length in ["uchar", "char", "ushort", "int", "uint"] {
+                for index in ["int", "uint", "ushort", "uchar", "double"] {
+                    for (polygon, extras) in [(false, false), (true, false), (false, true), (true, true)] {
+                        let mesh =
+                            parse(&square_in_binary(big, float, length, index, polygon, extras)).unwrap();
+                        assert_eq!(mesh.positions, expected.positions);
+                        assert_eq!(mesh.indices, expected.indices);
+                        assert_eq!(mesh.uvs[2], Vec2::ONE);
+                        assert!(mesh.normals.is_empty());
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn text_may_have_faces_first_normals_and_any_uv_names() {
+    for (u, v) in [("u", "v"), ("s", "t"), ("texture_u", "texture_v"), ("texture_s", "texture_t")] {
+        let text = format!(
+            "ply\nformat ascii 1.0\nelement face 1\nproperty list uint8 int32 vertex_index\nelement vertex 3\n\
+             property float64 nx\nproperty float ny\nproperty float nz\nproperty float x\nproperty float y\n\
+             property float z\nproperty float {u}\nproperty float {v}\nend_header\n3 2 1 0\n\
+             0 0 -2  0 0 0  0 0\n0 0 -1  1 0 0  1 0\n0 0 0  0 1 0  0.25 1"
+        );
+        let mesh = parse(text.as_bytes()).unwrap();
+        mesh.validate().unwrap();
+        assert_eq!(mesh.indices, [[2, 1, 0]]);
+        // The last normal was zero: it is made from the face.
+        assert_eq!(mesh.normals, [Vec3::NEG_Z; 3]);
+        assert_eq!(mesh.uvs[2], Vec2::new(0.25, 1.0));
+    }
+}
+
+#[test]
+fn faults_are_named_with_their_place() {
+    let text = |from: &str, to: &str| {
+        assert!(TWO_TRIANGLES.contains(from));
+        TWO_TRIANGLES.replacen(from, to, 1).into_bytes()
+    };
+    refused(b"", expect!["line 1: the first line is not `ply` (check that this is a PLY file)"]);
+    refused(b"solid\n", expect!["line 1: the first line is not `ply` (check that this is a PLY file)"]);
+    refused(
+        b"ply\nformat ascii 1.0\n",
+        expect!["line 3: the header has no `end_header` (the file is cut off: export the mesh again)"],
+    );
+    refused(
+        &text("ascii", "asci"),
+        expect![
+            "line 2: unknown format: expected ascii, binary_little_endian or binary_big_endian (export the mesh again)"
+        ],
+    );
+    refused(
+        &text("float x", "float128 x"),
+        expect![
+            "line 5: `float128 x` is no property (expected `property TYPE NAME` or `property list TYPE TYPE NAME` with char, uchar, short, ushort, int, uint, float or double)"
+        ],
+    );
+    refused(
+        &text("float x", "float w"),
+        expect!["line 11: vertices without x, y and z (export the mesh again)"],
+    );
+    refused(
+        &text("vertex 4", "vertex 4000000000000000"),
+        expect![
+            "line 11: 4000000000000000 `vertex` elements need 24000000000000000 bytes or more, but 40 are left (the file is cut off or its header wrong: export the mesh again)"
+        ],
+    );
+    refused(
+        &text("face 2", "face -2"),
+        expect!["line 8: expected `element NAME COUNT` (the header is damaged: export the mesh again)"],
+    );
+    refused(
+        &text("3 0 2 3", "3 0 2 4"),
+        expect![
+            "a face names vertex 4 (counting from 0), but there are 4 (the file is damaged: export the mesh again)"
+        ],
+    );
+    refused(
+        &text("3 0 2 3", "3 0 2 -1"),
+        expect!["line 16: -1 is no vertex index (the file is damaged: export the mesh again)"],
+    );
+    refused(
+        &text("3 0 2 3", "300000 0 2 3"),
+        expect![
+            "line 16: a list `vertex_indices` of 300000 values, but 7 bytes are left (the file is cut off or damaged: export the mesh again)"
+        ],
+    );
+    refused(
+        &text("3 0 2 3\n", "3 0"),
+        expect![
+            "line 16: a list `vertex_indices` of 3 values, but 2 bytes are left (the file is cut off or damaged: export the mesh again)"
+        ],
+    );
+    refused(
+        &text("1 1 0", "1 inf 0"),
+        expect![
+            "the position of vertex 2 (counting from 0) is [1, inf, 0] (repair the mesh: every number must be finite)"
+        ],
+    );
+    refused(&text("1 1 0", "1 one 0"), expect!["line 13: `one` is not a number (export the mesh again)"]);
+    refused(
+        &text("face 2", "edge 2"),
+        expect!["there is no triangle in the file (export the mesh again, with its faces)"],
+    );
+
+    let binary = square_in_binary(false, "float", "uchar", "int", false, false);
+    refused(
+        &binary[..binary.len() - 20],
+        expect!["byte 337: the data end too early (the file is cut off: export the mesh again)"],
+    );
+    for cut in 0..binary.len() {
+        assert!(parse(&binary[..cut]).is_err(), "{cut}");
+    }
+}
