@@ -53,7 +53,7 @@ impl Isa {
     /// The fastest that this machine has.
     pub(crate) fn detect() -> Self {
         #[cfg(target_arch = "x86_64")]
-        if std::arch::is_x86_feature_detected!("avx2") {
+        if std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("popcnt") {
             return Self::Avx2;
         }
         Self::Portable
@@ -64,7 +64,7 @@ impl Isa {
     pub(crate) fn scan(self, block: &Block, center: Vec3, bound: f32, base: u32, out: &mut [u64]) -> usize {
         match self {
             Self::Portable => portable(block, None, center, bound, base, out),
-            // SAFETY: `detect` made this value, so the machine has AVX2.
+            // SAFETY: `detect` made this value, so the machine has AVX2 and POPCNT.
             #[cfg(target_arch = "x86_64")]
             Self::Avx2 => unsafe { avx2::scan(block, center, bound, base, out) },
         }
@@ -85,11 +85,24 @@ impl Isa {
     ) -> usize {
         match self {
             Self::Portable => portable(block, Some((normals, surface)), center, bound, base, out),
-            // SAFETY: `detect` made this value, so the machine has AVX2.
+            // SAFETY: `detect` made this value, so the machine has AVX2 and POPCNT.
             #[cfg(target_arch = "x86_64")]
             Self::Avx2 => unsafe { avx2::scan_photons(block, normals, surface, center, bound, base, out) },
         }
     }
+}
+
+/// Asks for the cache lines of `value`; changes nothing else.
+#[inline]
+pub(crate) fn prefetch<T>(value: &T) {
+    #[cfg(target_arch = "x86_64")]
+    for offset in (0..size_of::<T>()).step_by(64) {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        // SAFETY: offset < size_of::<T>(), so the address lies in `value`; a prefetch reads nothing.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(value).cast::<i8>().add(offset)) };
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = value;
 }
 
 /// A candidate in one word: ordered by key, then by slot (the bits of floats ≥ 0 are in the order of the floats).
@@ -173,7 +186,7 @@ mod avx2 {
 
     /// Writes the candidates of the lanes in `mask` to `out[count..]`; returns the new count.
     #[inline]
-    #[target_feature(enable = "avx2")]
+    #[target_feature(enable = "avx2,popcnt")]
     fn append(key: __m256, mask: i32, first: u32, out: &mut [u64], count: usize) -> usize {
         let mask = mask as usize & 0xff;
         let lanes = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128(LANES[mask] as i64));
@@ -194,14 +207,14 @@ mod avx2 {
 
     /// Eight values from `from[first..]`.
     #[inline]
-    #[target_feature(enable = "avx2")]
+    #[target_feature(enable = "avx2,popcnt")]
     fn load(from: &[f32; LEAF], first: usize) -> __m256 {
         debug_assert!(first + 8 <= LEAF);
         // SAFETY: every caller steps `first` by 8 below LEAF = 64.
         unsafe { _mm256_loadu_ps(from.as_ptr().add(first)) }
     }
 
-    #[target_feature(enable = "avx2")]
+    #[target_feature(enable = "avx2,popcnt")]
     pub(super) fn scan(block: &Block, center: Vec3, bound: f32, base: u32, out: &mut [u64]) -> usize {
         assert!(out.len() >= ROOM);
         let (cx, cy, cz) = (_mm256_set1_ps(center.x), _mm256_set1_ps(center.y), _mm256_set1_ps(center.z));
@@ -213,14 +226,13 @@ mod avx2 {
             let z = _mm256_sub_ps(load(&block.z, first), cz);
             let key = dot(x, y, z, x, y, z);
             let mask = _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(key, bound));
-            if mask != 0 {
-                count = append(key, mask, base + first as u32, out, count);
-            }
+            // Also where the mask is empty: a branch here is mispredicted too often.
+            count = append(key, mask, base + first as u32, out, count);
         }
         count
     }
 
-    #[target_feature(enable = "avx2")]
+    #[target_feature(enable = "avx2,popcnt")]
     pub(super) fn scan_photons(
         block: &Block,
         normals: &Normals,
@@ -265,14 +277,14 @@ mod avx2 {
 
     /// (a·x + b·y) + c·z, rounded after each operation.
     #[inline]
-    #[target_feature(enable = "avx2")]
+    #[target_feature(enable = "avx2,popcnt")]
     fn dot(a: __m256, b: __m256, c: __m256, x: __m256, y: __m256, z: __m256) -> __m256 {
         _mm256_add_ps(_mm256_add_ps(_mm256_mul_ps(a, x), _mm256_mul_ps(b, y)), _mm256_mul_ps(c, z))
     }
 
     /// Eight times `super::decode`.
     #[inline]
-    #[target_feature(enable = "avx2")]
+    #[target_feature(enable = "avx2,popcnt")]
     fn decode(code: __m256i) -> (__m256, __m256, __m256) {
         let sign = _mm256_set1_ps(-0.0);
         let one = _mm256_set1_ps(1.0);

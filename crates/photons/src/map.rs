@@ -3,9 +3,9 @@ use math::{Bounds3, Vec3, octahedral_decode, octahedral_encode};
 
 use crate::kdtree::KdTree;
 use crate::kernel::Kernel;
-use crate::leaf::{Block, LEAF, Normals, Surface, unpack};
+use crate::leaf::{LEAF, Normals, Surface, prefetch, unpack};
 use crate::photon::{Payload, Photon, PhotonFlags};
-use crate::search::Scratch;
+use crate::search::{Scan, Scratch};
 
 /// τ: a photon counts where its height over the surface of the query is at most τ·radius.
 ///
@@ -19,6 +19,9 @@ pub const MIN_NORMAL_COSINE: f32 = 0.5;
 
 /// A radius of fewer than this many parts of the greatest coordinate measures rounding, not density.
 const LEAST_RADIUS: f32 = 1.0 / (1 << 20) as f32;
+
+/// Photons whose payloads are asked for before they are shown.
+const AHEAD: usize = 8;
 
 /// Where and how density is estimated.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -190,11 +193,11 @@ impl PhotonMap {
         if query.radius.is_nan() || query.radius <= 0.0 || radius2 == 0.0 {
             return 0;
         }
-        let surface = surface(query);
+        let (scan, per_radius2) = (Compatible::new(self, query), radius2.recip());
         let mut count = 0;
-        self.tree.search_within(query.position, query.radius, self.scan(query, &surface), |candidate| {
-            count += 1;
-            self.show(unpack(candidate).1, query, radius2, &mut f);
+        self.tree.search_within(query.position, query.radius, &scan, |found| {
+            count += found.len();
+            self.show_all(found, query, per_radius2, &mut f);
         });
         count
     }
@@ -217,9 +220,8 @@ impl PhotonMap {
         mut f: impl FnMut(&PhotonView, f32),
     ) -> Neighbourhood {
         let k = k.max(2);
-        let surface = surface(query);
-        let scan = self.scan(query, &surface);
-        let found = self.tree.search_nearest(query.position, k, query.radius, scratch, scan);
+        let scan = Compatible::new(self, query);
+        let found = self.tree.search_nearest(query.position, k, query.radius, scratch, &scan);
         let (kth, rest) = match found.split_last() {
             Some((&kth, rest)) if found.len() == k => (unpack(kth).0, rest),
             // All that count are here already.
@@ -230,31 +232,28 @@ impl PhotonMap {
             let count = self.gather(&Query { radius: least, ..*query }, f);
             return Neighbourhood { radius: least, count };
         }
-        for &candidate in rest {
-            self.show(unpack(candidate).1, query, kth, &mut f);
-        }
+        self.show_all(rest, query, kth.recip(), &mut f);
         let radius = if found.len() == k { kth.sqrt() } else { query.radius };
         Neighbourhood { radius, count: rest.len() }
     }
 
-    /// The leaf scan with the test of the surface.
+    /// Calls `f` for each of the candidates.
     #[inline]
-    fn scan<'a>(
-        &'a self,
-        query: &'a Query,
-        surface: &'a Surface,
-    ) -> impl FnMut(&Block, usize, f32, &mut [u64]) -> usize + 'a {
-        move |block, leaf, bound, out| {
-            let (normals, first) = (&self.normals[leaf], (leaf * LEAF) as u32);
-            self.tree.isa.scan_photons(block, normals, surface, query.position, bound, first, out)
+    fn show_all(&self, found: &[u64], query: &Query, per_radius2: f32, f: &mut impl FnMut(&PhotonView, f32)) {
+        for (i, &candidate) in found.iter().enumerate() {
+            if let Some(payload) = found.get(i + AHEAD).and_then(|&c| self.payloads.get(unpack(c).1 as usize))
+            {
+                prefetch(payload);
+            }
+            self.show(unpack(candidate).1, query, per_radius2, f);
         }
     }
 
     /// Calls `f` for one photon.
     #[inline]
-    fn show(&self, slot: u32, query: &Query, radius2: f32, f: &mut impl FnMut(&PhotonView, f32)) {
-        let distance2 = (self.tree.position(slot) - query.position).length_squared();
-        let weight = query.kernel.value_of_square((distance2 / radius2).min(1.0)) / radius2;
+    fn show(&self, slot: u32, query: &Query, per_radius2: f32, f: &mut impl FnMut(&PhotonView, f32)) {
+        let t2 = (self.tree.position(slot) - query.position).length_squared() * per_radius2;
+        let weight = query.kernel.value_of_square(t2.min(1.0)) * per_radius2;
         let payload = &self.payloads[slot as usize];
         let [depth, flags] = self.marks[slot as usize];
         let mut direction = payload.direction();
@@ -270,9 +269,33 @@ impl PhotonMap {
     }
 }
 
-#[inline]
-fn surface(query: &Query) -> Surface {
-    Surface { normal: query.normal, min_cosine: MIN_NORMAL_COSINE, reach: 0.5 / FLATNESS }
+/// The leaf scan with the test of the surface.
+struct Compatible<'a> {
+    map: &'a PhotonMap,
+    center: Vec3,
+    surface: Surface,
+}
+
+impl<'a> Compatible<'a> {
+    fn new(map: &'a PhotonMap, query: &Query) -> Self {
+        let surface = Surface { normal: query.normal, min_cosine: MIN_NORMAL_COSINE, reach: 0.5 / FLATNESS };
+        Self { map, center: query.position, surface }
+    }
+}
+
+impl Scan for Compatible<'_> {
+    #[inline]
+    fn scan(&self, leaf: usize, bound: f32, out: &mut [u64]) -> usize {
+        let (tree, normals) = (&self.map.tree, &self.map.normals[leaf]);
+        let first = (leaf * LEAF) as u32;
+        tree.isa.scan_photons(&tree.blocks[leaf], normals, &self.surface, self.center, bound, first, out)
+    }
+
+    #[inline]
+    fn prefetch(&self, leaf: usize) {
+        prefetch(&self.map.tree.blocks[leaf]);
+        prefetch(&self.map.normals[leaf]);
+    }
 }
 
 /// `w` turned by the least rotation that takes the unit vector `from` to `to`; they must not be opposite.

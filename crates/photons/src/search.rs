@@ -1,7 +1,7 @@
 use math::{Bounds3, Vec3};
 
 use crate::kdtree::KdTree;
-use crate::leaf::{Block, LEAF, ROOM, unpack};
+use crate::leaf::{LEAF, ROOM, prefetch, unpack};
 
 /// A point that a search found.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,14 +87,42 @@ fn box_distance2(bounds: &Bounds3, c: Vec3) -> f32 {
     square(d.to_array())
 }
 
+/// What is asked of each leaf that a search reaches.
+pub(crate) trait Scan {
+    /// Appends the candidates of a leaf whose key is at most `bound` to `out`, which has [`ROOM`]; returns how many.
+    fn scan(&self, leaf: usize, bound: f32, out: &mut [u64]) -> usize;
+    /// Called some time before `scan`.
+    fn prefetch(&self, leaf: usize);
+}
+
+/// Every point is a candidate.
+struct Positions<'a> {
+    tree: &'a KdTree,
+    center: Vec3,
+}
+
+impl Scan for Positions<'_> {
+    #[inline]
+    fn scan(&self, leaf: usize, bound: f32, out: &mut [u64]) -> usize {
+        self.tree.isa.scan(&self.tree.blocks[leaf], self.center, bound, (leaf * LEAF) as u32, out)
+    }
+
+    #[inline]
+    fn prefetch(&self, leaf: usize) {
+        prefetch(&self.tree.blocks[leaf]);
+    }
+}
+
+/// Leaves that a fixed-radius search asks the memory for before it scans the first of them.
+const AHEAD: usize = 16;
+
 impl KdTree {
     /// Calls `visit` for each point within `radius` of `center` (boundary included), leaf by leaf.
     #[inline]
     pub fn within(&self, center: Vec3, radius: f32, mut visit: impl FnMut(Hit)) {
-        let scan = |block: &Block, leaf: usize, bound: f32, out: &mut [u64]| {
-            self.isa.scan(block, center, bound, (leaf * LEAF) as u32, out)
-        };
-        self.search_within(center, radius, scan, |c| visit(hit(c)));
+        self.search_within(center, radius, &Positions { tree: self, center }, |found| {
+            found.iter().for_each(|&c| visit(hit(c)));
+        });
     }
 
     /// The `k` points nearest to `center` among those within `max_radius` (boundary included). Among points at
@@ -106,34 +134,47 @@ impl KdTree {
         max_radius: f32,
         scratch: &'s mut Scratch,
     ) -> Nearest<'s> {
-        let scan = |block: &Block, leaf: usize, bound: f32, out: &mut [u64]| {
-            self.isa.scan(block, center, bound, (leaf * LEAF) as u32, out)
-        };
-        let found = self.search_nearest(center, k, max_radius, scratch, scan);
+        let found = self.search_nearest(center, k, max_radius, scratch, &Positions { tree: self, center });
         Nearest { found, limited: found.len() == k }
     }
 
-    /// Calls `visit` for each candidate that `scan` lets pass in the leaves that come within `radius`.
+    /// Calls `visit` with the candidates of each leaf that comes within `radius`.
     #[inline]
     pub(crate) fn search_within(
         &self,
         center: Vec3,
         radius: f32,
-        mut scan: impl FnMut(&Block, usize, f32, &mut [u64]) -> usize,
-        mut visit: impl FnMut(u64),
+        scan: &impl Scan,
+        mut visit: impl FnMut(&[u64]),
     ) {
         if radius.is_nan() || radius < 0.0 {
             return;
         }
+        let bound = radius * radius;
         let mut found = [0; ROOM];
-        self.traverse(center, radius * radius, |leaf, bound| {
-            let count = scan(&self.blocks[leaf], leaf, bound, &mut found);
-            found[..count.min(ROOM)].iter().for_each(|&c| visit(c));
+        let mut flush = |leaves: &[u32]| {
+            for &leaf in leaves {
+                let count = scan.scan(leaf as usize, bound, &mut found);
+                visit(&found[..count.min(ROOM)]);
+            }
+        };
+        // The radius never changes, so the leaves can be found first and fetched together.
+        let mut leaves = [0; AHEAD];
+        let mut waiting = 0;
+        self.traverse(center, bound, |leaf, bound| {
+            scan.prefetch(leaf);
+            leaves[waiting] = leaf as u32;
+            waiting += 1;
+            if waiting == AHEAD {
+                flush(&leaves);
+                waiting = 0;
+            }
             bound
         });
+        flush(&leaves[..waiting]);
     }
 
-    /// The k least candidates that `scan` lets pass, the k-th in the last place; fewer where there are fewer.
+    /// The k least candidates, the k-th in the last place; fewer where there are fewer.
     ///
     /// Candidates are gathered unsorted in a buffer of about 2k; when it is full, quickselect keeps the k least,
     /// which shrinks the radius: only the k-th distance is ever needed.
@@ -144,7 +185,7 @@ impl KdTree {
         k: usize,
         max_radius: f32,
         scratch: &'s mut Scratch,
-        mut scan: impl FnMut(&Block, usize, f32, &mut [u64]) -> usize,
+        scan: &impl Scan,
     ) -> &'s [u64] {
         let k = k.min(self.len);
         if k == 0 || max_radius.is_nan() || max_radius < 0.0 {
@@ -158,7 +199,7 @@ impl KdTree {
         let buffer = &mut scratch.candidates[..];
         let mut count = 0;
         self.traverse(center, max_radius * max_radius, |leaf, bound| {
-            count += scan(&self.blocks[leaf], leaf, bound, &mut buffer[count..]);
+            count += scan.scan(leaf, bound, &mut buffer[count..]);
             if count < full {
                 return bound;
             }
