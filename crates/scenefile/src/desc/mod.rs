@@ -1,0 +1,362 @@
+//! What a scene file says: plain data, nothing compiled.
+//!
+//! Lengths are in scene units (metres where physical units matter), angles in degrees, colours linear RGB (Rec. 709
+//! primaries), radiometric quantities in SI units per RGB channel. Names are resolved by whoever compiles the scene;
+//! what that stage may reject carries its span ([`Sourced`]). Every type but the named exceptions has a `Default`
+//! that equals what the reader takes for absent keys.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use crate::source::Sourced;
+
+mod light;
+mod material;
+mod shape;
+
+pub use light::{Emission, EmissionAmount, Light, LightKind, PointAmount, channel_power};
+pub use material::{
+    ColorDesc, ColorSpace, FloatDesc, Ior, Material, MaterialKind, Metal, Texture, TextureFilter, Wrap,
+};
+pub use shape::{Normals, Shape, TEAPOT_PARTS, TeapotPart};
+
+/// A point, vector or colour.
+pub type Triple = [f32; 3];
+
+/// A whole scene and how to render it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SceneDesc {
+    /// The folder that relative file names start from; empty for the working directory.
+    pub base: PathBuf,
+    /// What to compute.
+    pub render: Render,
+    /// The picture.
+    pub film: Film,
+    /// The camera; a scene without one does not compile.
+    pub camera: Option<Sourced<Camera>>,
+    /// Settings of the two-pass photon map.
+    pub photon_map: PhotonMap,
+    /// Textures by name.
+    pub textures: BTreeMap<String, Sourced<Texture>>,
+    /// Materials by name.
+    pub materials: BTreeMap<String, Sourced<Material>>,
+    /// Surfaces, in the order written.
+    pub objects: Vec<Sourced<Object>>,
+    /// Lights that are not surfaces, in the order written.
+    pub lights: Vec<Sourced<Light>>,
+    /// Objects that appear only where an instance places them.
+    pub groups: BTreeMap<String, Sourced<Group>>,
+    /// Placed copies of groups.
+    pub instances: Vec<Sourced<Instance>>,
+}
+
+impl SceneDesc {
+    /// The path that a file name of this description means: relative ones start from `base`.
+    pub fn resolve(&self, file: &Path) -> PathBuf {
+        self.base.join(file)
+    }
+}
+
+/// The algorithm that renders.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum IntegratorKind {
+    /// Two-pass photon mapping.
+    #[default]
+    PhotonMap,
+    /// Unidirectional path tracing with light sampling.
+    Path,
+}
+
+/// What to compute: `[render]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Render {
+    /// The algorithm.
+    pub integrator: IntegratorKind,
+    /// Passes, each one camera sample a pixel; at least 1.
+    pub passes: u32,
+    /// Seed of every random number.
+    pub seed: u64,
+    /// Scattering events on a path, at most; 1 is direct light only, `None` unlimited.
+    pub max_depth: Option<u32>,
+}
+
+impl Default for Render {
+    fn default() -> Self {
+        Self { integrator: IntegratorKind::PhotonMap, passes: 16, seed: 0, max_depth: None }
+    }
+}
+
+/// The pixel reconstruction filter's shape.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FilterKind {
+    /// Constant.
+    Box,
+    /// Gaussian, cut at its radius.
+    Gaussian,
+    /// Mitchell & Netravali 1988, B = C = 1/3.
+    Mitchell,
+    /// Blackman–Harris window.
+    #[default]
+    BlackmanHarris,
+}
+
+/// The display transform of 8-bit output.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum View {
+    /// AgX, filmic.
+    #[default]
+    Agx,
+    /// The plain sRGB curve, clipped.
+    Srgb,
+}
+
+/// The picture: `[film]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Film {
+    /// Width and height in pixels, each 1..=65536, 2³⁰ pixels at most.
+    pub size: [u32; 2],
+    /// The pixel filter.
+    pub filter: FilterKind,
+    /// The filter's radius in pixels; `None` is the filter's own default.
+    pub filter_radius: Option<f32>,
+    /// Exposure of 8-bit output in EV: radiance is multiplied by 2^exposure.
+    pub exposure: f32,
+    /// The display transform of 8-bit output.
+    pub view: View,
+}
+
+impl Default for Film {
+    fn default() -> Self {
+        Self {
+            size: [512, 512],
+            filter: FilterKind::BlackmanHarris,
+            filter_radius: None,
+            exposure: 0.0,
+            view: View::Agx,
+        }
+    }
+}
+
+/// How the camera gathers light.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum CameraKind {
+    /// All rays leave one point.
+    #[default]
+    Pinhole,
+    /// A thin lens.
+    ThinLens {
+        /// Radius of the aperture, scene units, > 0.
+        lens_radius: f32,
+        /// Distance of the plane in focus along the view direction; `None` is the distance to `look_at`.
+        focus_distance: Option<f32>,
+    },
+}
+
+/// The side of the picture that the field of view spans.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FovAxis {
+    /// The width.
+    X,
+    /// The height.
+    Y,
+    /// The shorter of the two.
+    #[default]
+    Smaller,
+}
+
+/// The camera: `[camera]`. In a file `position` and `look_at` have no default.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Camera {
+    /// Pinhole or thin lens.
+    pub kind: CameraKind,
+    /// The eye.
+    pub position: Triple,
+    /// A point in the middle of the picture.
+    pub look_at: Triple,
+    /// A direction that points up in the picture; not parallel to the view.
+    pub up: Triple,
+    /// Full field of view in degrees, in (0, 180).
+    pub fov: f32,
+    /// What `fov` spans.
+    pub fov_axis: FovAxis,
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Self {
+            kind: CameraKind::Pinhole,
+            position: [0.0, 0.0, 1.0],
+            look_at: [0.0; 3],
+            up: [0.0, 1.0, 0.0],
+            fov: 40.0,
+            fov_axis: FovAxis::Smaller,
+        }
+    }
+}
+
+/// The kernel of a density estimate.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PhotonFilter {
+    /// 1/π.
+    #[default]
+    Constant,
+    /// (3/π)(1 − t), t = distance / radius.
+    Cone,
+    /// (2/π)(1 − t²).
+    Epanechnikov,
+}
+
+/// Two-pass photon mapping: `[photon_map]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PhotonMap {
+    /// Photons emitted for the global map.
+    pub photons: u64,
+    /// Photons emitted for the caustic map.
+    pub caustic_photons: u64,
+    /// Neighbours of a lookup in the global map.
+    pub knn: u32,
+    /// Neighbours of a lookup in the caustic map.
+    pub caustic_knn: u32,
+    /// Kernel of the global map.
+    pub filter: PhotonFilter,
+    /// Kernel of the caustic map.
+    pub caustic_filter: PhotonFilter,
+    /// Greatest lookup radius in the global map, scene units; `None` is automatic.
+    pub radius: Option<f32>,
+    /// Greatest lookup radius in the caustic map, scene units; `None` is automatic.
+    pub caustic_radius: Option<f32>,
+    /// Gather rays a camera sample; 0 looks the global map up directly.
+    pub final_gather: u32,
+    /// Factor on the caustic map's light; 1 is right.
+    pub caustic_gain: f32,
+}
+
+impl Default for PhotonMap {
+    fn default() -> Self {
+        Self {
+            photons: 200_000,
+            caustic_photons: 400_000,
+            knn: 100,
+            caustic_knn: 60,
+            filter: PhotonFilter::Constant,
+            caustic_filter: PhotonFilter::Epanechnikov,
+            radius: None,
+            caustic_radius: None,
+            final_gather: 16,
+            caustic_gain: 1.0,
+        }
+    }
+}
+
+/// The material of an object: named or its own.
+#[derive(Clone, Debug, PartialEq)]
+pub enum MaterialRef {
+    /// A key of [`SceneDesc::materials`].
+    Named(Sourced<String>),
+    /// Written at the object.
+    Inline(Box<Material>),
+}
+
+impl From<&str> for MaterialRef {
+    fn from(name: &str) -> Self {
+        Self::Named(name.into())
+    }
+}
+
+impl From<Material> for MaterialRef {
+    fn from(material: Material) -> Self {
+        Self::Inline(Box::new(material))
+    }
+}
+
+/// One step of a placement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TransformStep {
+    /// Moves by a vector.
+    Translate(Triple),
+    /// Turns about an axis through the origin, counter-clockwise seen from the axis's tip.
+    Rotate {
+        /// The axis, of any length but zero.
+        axis: Triple,
+        /// The angle.
+        degrees: f32,
+    },
+    /// Multiplies each coordinate; none is zero.
+    Scale(Triple),
+    /// Puts the origin at `position` and turns +z toward `target`, +y as near to `up` as may be.
+    LookAt {
+        /// Where the origin goes.
+        position: Triple,
+        /// Where +z points.
+        target: Triple,
+        /// Not parallel to the direction from `position` to `target`.
+        up: Triple,
+    },
+    /// An affine matrix, row by row, that multiplies column vectors: the translation is at 3, 7 and 11, and the
+    /// last row is 0 0 0 1.
+    Matrix([f32; 16]),
+}
+
+/// Steps applied to the object one after the other, the first one first; empty is the identity.
+pub type TransformSteps = Vec<TransformStep>;
+
+/// A surface in the scene: `[[objects]]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Object {
+    /// A name for messages and overrides; unique among objects.
+    pub name: Option<String>,
+    /// Its surface.
+    pub shape: Sourced<Shape>,
+    /// Its material; `None` is black, for emitters only.
+    pub material: Option<MaterialRef>,
+    /// Its placement.
+    pub transform: TransformSteps,
+    /// Turns the normals to the other side (and with them emission).
+    pub flip_normals: bool,
+    /// The light it gives off.
+    pub emission: Option<Sourced<Emission>>,
+}
+
+impl Object {
+    /// An object of a material, where its shape says.
+    pub fn new(shape: Shape, material: impl Into<MaterialRef>) -> Self {
+        Self { material: Some(material.into()), ..Self::bare(shape) }
+    }
+
+    /// A black lamp.
+    pub fn lamp(shape: Shape, emission: Emission) -> Self {
+        Self { emission: Some(emission.into()), ..Self::bare(shape) }
+    }
+
+    /// A shape alone, without material or light.
+    pub fn bare(shape: Shape) -> Self {
+        Self {
+            name: None,
+            shape: shape.into(),
+            material: None,
+            transform: Vec::new(),
+            flip_normals: false,
+            emission: None,
+        }
+    }
+}
+
+/// Objects that are placed together: `[groups.NAME]`.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Group {
+    /// Its objects.
+    pub objects: Vec<Sourced<Object>>,
+}
+
+/// A placed copy of a group: `[[instances]]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Instance {
+    /// A name for messages and overrides; unique among instances.
+    pub name: Option<String>,
+    /// A key of [`SceneDesc::groups`].
+    pub group: Sourced<String>,
+    /// Its placement, after the objects' own.
+    pub transform: TransformSteps,
+    /// Replaces the material of every object of the group.
+    pub material: Option<MaterialRef>,
+}

@@ -1,0 +1,163 @@
+//! Shapes.
+
+use std::path::PathBuf;
+
+use super::Triple;
+use crate::source::Sourced;
+
+/// The shading normals of a mesh.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Normals {
+    /// As given with the mesh; flat where none are.
+    #[default]
+    Given,
+    /// The faces' own.
+    Flat,
+    /// Averaged over the faces at a vertex.
+    Smooth {
+        /// Edges that bend more than this stay sharp; 180 smooths all.
+        crease_degrees: f32,
+    },
+}
+
+/// Which parts of the teapot to make.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TeapotPart {
+    /// The body (rim, upper and lower body).
+    Body,
+    /// The handle.
+    Handle,
+    /// The spout.
+    Spout,
+    /// The lid and its knob.
+    Lid,
+    /// The bottom.
+    Bottom,
+}
+
+/// Every part of the teapot, in order.
+pub const TEAPOT_PARTS: [TeapotPart; 5] =
+    [TeapotPart::Body, TeapotPart::Handle, TeapotPart::Spout, TeapotPart::Lid, TeapotPart::Bottom];
+
+/// A surface. Normals point as stated; [`flip_normals`](super::Object::flip_normals) turns them.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Shape {
+    /// A sphere, normals outward.
+    Sphere {
+        /// Its centre.
+        center: Triple,
+        /// Its radius, > 0.
+        radius: f32,
+    },
+    /// A flat disk.
+    Disk {
+        /// Its centre.
+        center: Triple,
+        /// Its normal, of any length but zero.
+        normal: Triple,
+        /// Its radius, > 0.
+        radius: f32,
+    },
+    /// A parallelogram, normal along `edge_u` × `edge_v`.
+    Quad {
+        /// A corner; uv (0, 0).
+        origin: Triple,
+        /// From the corner to uv (1, 0).
+        edge_u: Triple,
+        /// From the corner to uv (0, 1).
+        edge_v: Triple,
+    },
+    /// Four corners, need not be planar: triangles (0, 1, 2) and (0, 2, 3), normals by the right-hand rule,
+    /// uv (0,0), (1,0), (1,1), (0,1).
+    Corners {
+        /// In order around the border.
+        corners: [Triple; 4],
+    },
+    /// A mesh file.
+    Mesh {
+        /// OBJ or PLY; see [`resolve`](super::SceneDesc::resolve).
+        file: Sourced<PathBuf>,
+        /// Shading normals.
+        normals: Normals,
+    },
+    /// A mesh in place.
+    Triangles {
+        /// Vertices.
+        positions: Vec<Triple>,
+        /// Three vertices a triangle, counter-clockwise seen from the side of the normal.
+        indices: Vec<[u32; 3]>,
+        /// A shading normal a vertex; empty for none.
+        vertex_normals: Vec<Triple>,
+        /// Texture coordinates of each vertex; empty for none.
+        uvs: Vec<[f32; 2]>,
+        /// Which shading normals to use.
+        normals: Normals,
+    },
+    /// An axis-aligned box, normals outward.
+    Box {
+        /// Its least corner.
+        min: Triple,
+        /// Its greatest corner.
+        max: Triple,
+    },
+    /// Newell's teapot: the bottom's centre at the origin, +y up, the spout toward +x.
+    Teapot {
+        /// Each of the 32 patches (with their mirror images) is cut into `level`² quadrilaterals; 1..=256.
+        level: u32,
+        /// The parts to make; [`TEAPOT_PARTS`] is all.
+        parts: Vec<TeapotPart>,
+    },
+    /// A profile turned about the y axis; normals to the right of the way along the profile (up the outside:
+    /// outward).
+    Lathe {
+        /// Points (r, y), r ≥ 0.
+        profile: Vec<[f32; 2]>,
+        /// Facets around, ≥ 3.
+        segments: u32,
+        /// Smooth or faceted shading normals.
+        smooth: bool,
+        /// Whether the last point joins the first.
+        closed: bool,
+    },
+    /// An open tube.
+    Cylinder {
+        /// Centre of its lower rim.
+        base: Triple,
+        /// Direction from the base, of any length but zero.
+        axis: Triple,
+        /// Its radius, > 0.
+        radius: f32,
+        /// Its length, > 0.
+        height: f32,
+        /// Whether normals point to the axis instead of away.
+        inward: bool,
+        /// Facets around, ≥ 3.
+        segments: u32,
+    },
+    /// A ring, normals outward.
+    Torus {
+        /// Its centre.
+        center: Triple,
+        /// Its axis of rotation, of any length but zero.
+        axis: Triple,
+        /// Radius of the ring's middle line, > 0.
+        major_radius: f32,
+        /// Radius of the tube, > 0.
+        minor_radius: f32,
+        /// Facets around the ring, ≥ 3.
+        segments: u32,
+        /// Facets around the tube, ≥ 3.
+        tube_segments: u32,
+    },
+    /// A subdivided icosahedron with vertices on a sphere.
+    Icosphere {
+        /// Its centre.
+        center: Triple,
+        /// Its radius, > 0.
+        radius: f32,
+        /// Subdivisions: 20·4^level triangles; 0..=9.
+        level: u32,
+        /// The sphere's shading normals or the facets' own.
+        smooth: bool,
+    },
+}

@@ -1,0 +1,244 @@
+//! The reference of scene files, printed from the specification.
+
+use std::fmt;
+
+use crate::diagnostic::CODES;
+use crate::nearest::nearest;
+use crate::spec::{Form, Key, Kind, Preset, SECTIONS, Section, Variant};
+
+/// A topic that does not exist, and the nearest that does.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownTopic {
+    /// What was asked for.
+    pub topic: String,
+    /// What may have been meant.
+    pub nearest: Option<String>,
+}
+
+impl fmt::Display for UnknownTopic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "no topic is named `{}`", self.topic)?;
+        match &self.nearest {
+            Some(nearest) => write!(f, "; did you mean `{nearest}`?"),
+            None => Ok(()),
+        }
+    }
+}
+
+impl std::error::Error for UnknownTopic {}
+
+/// Topics that are no section.
+const PAGES: &[(&str, &str, &str)] = &[
+    (
+        "colors",
+        "How colours are written.",
+        "Colours are linear RGB (Rec. 709 primaries), written as\n\
+         \x20 [0.7, 0.1, 0.1]            three numbers\n\
+         \x20 0.7                        one number: grey\n\
+         \x20 \"#d04040\"                  sRGB as in web pages, converted to linear\n\
+         \x20 { texture = \"NAME\" }       a texture, where the key allows one\n\
+         Colours of materials lie from 0 to 1; amounts of light are ≥ 0 and may exceed 1.\n",
+    ),
+    (
+        "units",
+        "Which units quantities have.",
+        "Lengths are scene units; take metres where powers shall be physical. Angles are degrees.\n\
+         \x20 radiance     W/(sr m^2)   of surfaces and environments\n\
+         \x20 intensity    W/sr         of point and spot lights\n\
+         \x20 irradiance   W/m^2        of directional lights\n\
+         \x20 power        W            the total flux of any lamp\n\
+         Each holds for each of the channels red, green, blue. The picture is radiance; film.exposure\n\
+         and film.view turn it into display colours.\n",
+    ),
+    (
+        "overrides",
+        "How --set changes a scene from the command line.",
+        "--set PATH.KEY=VALUE changes the scene before it is checked:\n\
+         \x20 --set photon_map.photons=100000\n\
+         \x20 --set materials.glass.ior=1.33\n\
+         \x20 --set objects.ball.radius=2        by the object's name\n\
+         \x20 --set objects.0.radius=2           by its number, from 0\n\
+         \x20 --set render.integrator=path       plain words need no quotes\n\
+         \x20 --set camera.position=[0,1,5]\n",
+    ),
+];
+
+/// Every topic and what it is about, in the order of the reference.
+pub fn topics() -> Vec<(&'static str, &'static str)> {
+    let mut out: Vec<(&str, &str)> = Vec::new();
+    for section in SECTIONS {
+        out.push((section.name, section.doc));
+        out.extend(section.variants().iter().map(|variant| (variant.name, variant.doc)));
+    }
+    out.extend(PAGES.iter().map(|(name, doc, _)| (*name, *doc)));
+    out.push(("errors", "What the codes of errors mean."));
+    out
+}
+
+/// The reference of a topic: a section ("camera"), a kind ("sphere", "materials.glass"), a key ("camera.fov"), or
+/// one of the pages "colors", "units", "overrides", "errors". An empty topic lists all.
+///
+/// Plain text of at most about 100 columns that ends with a newline.
+///
+/// # Errors
+/// The topic is unknown.
+pub fn describe(topic: &str) -> Result<String, UnknownTopic> {
+    if topic.is_empty() {
+        return Ok(overview());
+    }
+    let name = topic.trim_matches(['[', ']']).trim_end_matches(".NAME");
+    if name == "errors" {
+        return Ok(CODES.iter().map(|(code, doc)| format!("{code:<18}{doc}\n")).collect());
+    }
+    if let Some((_, doc, text)) = PAGES.iter().find(|page| page.0 == name) {
+        return Ok(format!("{doc}\n\n{text}"));
+    }
+    if let Some(section) = SECTIONS.iter().find(|section| section.name == name) {
+        return Ok(section_text(section));
+    }
+    let (first, second) = name.split_once('.').unwrap_or(("", name));
+    for section in SECTIONS.iter().filter(|section| first.is_empty() || section.name == first) {
+        if let Some(variant) = section.variant(second) {
+            return Ok(variant_text(section, variant));
+        }
+    }
+    let holders = |section: &&&Section| section.name == first || section.variant(first).is_some();
+    if !first.is_empty()
+        && let Some(section) = SECTIONS.iter().find(holders)
+    {
+        let variants = section.variants().iter().filter(|v| section.name == first || v.name == first);
+        let mut keys = section.keys.iter().chain(variants.flat_map(Variant::keys));
+        if let Some(key) = keys.find(|key| key.name == second) {
+            return Ok(key_text(key));
+        }
+    }
+    let names: Vec<&str> = topics().into_iter().map(|(name, _)| name).collect();
+    let nearest = nearest(second, names).map(str::to_owned);
+    Err(UnknownTopic { topic: topic.to_owned(), nearest })
+}
+
+fn overview() -> String {
+    let mut out =
+        String::from("A scene is a TOML file of these tables. `describe TOPIC` tells more of each.\n\n");
+    for section in SECTIONS {
+        if section.form == Form::Inline {
+            continue;
+        }
+        out += &format!("{:<20}{}\n", section.header(), section.doc);
+        for variant in section.variants() {
+            out += &format!("    {:<16}{}\n", variant.name, variant.doc);
+        }
+    }
+    out += "\nAnd:\n";
+    for section in SECTIONS.iter().filter(|section| section.form == Form::Inline) {
+        out += &format!("{:<20}{}\n", section.name, section.doc);
+    }
+    for (name, doc, _) in PAGES {
+        out += &format!("{name:<20}{doc}\n");
+    }
+    out += &format!("{:<20}{}\n", "errors", "What the codes of errors mean.");
+    out
+}
+
+fn section_text(section: &Section) -> String {
+    let mut out = format!("{}\n{}\n", section.header(), wrapped(section.doc, 0));
+    if let Some(switch) = section.switch {
+        let default = match switch.preset {
+            Some(preset) => format!("default \"{preset}\""),
+            None => "required".to_owned(),
+        };
+        out += &format!("\n{}  one of these words, {default}\n", switch.key);
+        for variant in switch.variants {
+            out += &format!("    {:<16}{}\n", variant.name, wrapped(variant.doc, 20));
+        }
+    }
+    if !section.keys.is_empty() {
+        out += if section.switch.is_some() { "\nKeys of every kind:\n" } else { "\n" };
+        out += &keys_text(section.keys.iter());
+    }
+    for variant in section.variants() {
+        if variant.keys().next().is_some() {
+            out += &format!("\nKeys of {}:\n{}", variant.name, keys_text(variant.keys()));
+        }
+    }
+    let examples: Vec<&str> = std::iter::once(section.example)
+        .chain(section.variants().iter().map(|variant| variant.example))
+        .filter(|example| !example.is_empty())
+        .collect();
+    if let Some(example) = examples.first() {
+        out += &format!("\nExample:\n{}", indented(example));
+    }
+    out
+}
+
+fn variant_text(section: &Section, variant: &Variant) -> String {
+    let switch = section.switch.map_or("kind", |switch| switch.key);
+    let mut out =
+        format!("{}  {switch} = \"{}\"\n{}\n", section.header(), variant.name, wrapped(variant.doc, 0));
+    if variant.keys().next().is_some() {
+        out += &format!("\n{}", keys_text(variant.keys()));
+    }
+    if !section.keys.is_empty() {
+        out += &format!("\nKeys of every {}:\n{}", section.noun, keys_text(section.keys.iter()));
+    }
+    out + &format!("\nExample:\n{}", indented(variant.example))
+}
+
+fn keys_text<'a>(keys: impl Iterator<Item = &'a Key>) -> String {
+    keys.map(key_text).collect()
+}
+
+fn key_text(key: &Key) -> String {
+    let unit = if key.unit.is_empty() { String::new() } else { format!(" ({})", key.unit) };
+    let default = match default_text(&key.preset) {
+        Some(default) => format!("; {default}"),
+        None => String::new(),
+    };
+    let head = wrapped(&format!("{}{unit}{default}", key.kind.text()), 20);
+    let mut out = format!("    {:<15} {head}\n{:20}{}\n", key.name, "", wrapped(key.doc, 20));
+    if let Kind::Word(words) | Kind::Words(words) = key.kind {
+        for word in words {
+            out += &format!("{:22}{:<17} {}\n", "", word.name, wrapped(word.doc, 40));
+        }
+    }
+    out
+}
+
+/// "default 1", "required", …
+fn default_text(preset: &Preset) -> Option<String> {
+    Some(match preset {
+        Preset::Required => "required".to_owned(),
+        Preset::Absent("") => return None,
+        Preset::Absent(meaning) => format!("if absent: {meaning}"),
+        Preset::Bool(value) => format!("default {value}"),
+        Preset::Integer(value) => format!("default {value}"),
+        Preset::Number(value) => format!("default {value}"),
+        Preset::Pair([a, b]) => format!("default [{a}, {b}]"),
+        Preset::Triple([a, b, c]) => format!("default [{a}, {b}, {c}]"),
+        Preset::Word(word) => format!("default \"{word}\""),
+    })
+}
+
+/// Lines of at most about 100 columns; all but the first are indented.
+fn wrapped(text: &str, indent: usize) -> String {
+    let mut out = String::new();
+    let mut column = indent;
+    for word in text.split(' ') {
+        let width = word.chars().count();
+        if column > indent && column + 1 + width > 100 {
+            out.push('\n');
+            out.extend(std::iter::repeat_n(' ', indent));
+            column = indent;
+        } else if column > indent {
+            out.push(' ');
+            column += 1;
+        }
+        out += word;
+        column += width;
+    }
+    out
+}
+
+fn indented(text: &str) -> String {
+    text.lines().map(|line| format!("    {line}\n")).collect()
+}

@@ -1,0 +1,283 @@
+//! Objects, instances and placements.
+
+use super::light::power;
+use super::material;
+use crate::desc::{
+    Emission, EmissionAmount, Instance, Normals, Object, Shape, TEAPOT_PARTS, TeapotPart, TransformStep,
+    TransformSteps,
+};
+use crate::diagnostic::{Diagnostic, Report};
+use crate::document::{Entry, Node, Value};
+use crate::reader::{Reader, as_table};
+use crate::source::{Sourced, Span};
+use crate::spec;
+
+/// What stands for a shape after a mistake.
+const STAND_IN: Shape = Shape::Sphere { center: [0.0; 3], radius: 1.0 };
+
+/// An object; after a mistake its shape is a stand-in that passes further checks.
+pub(super) fn object(report: &mut Report, what: String, node: &Node) -> Object {
+    let Some(table) = as_table(report, &what, node) else {
+        return Object::new(STAND_IN, crate::desc::Material::diffuse(0.5));
+    };
+    let r = Reader::new(report, &spec::OBJECTS, what, table, node.span);
+    let name = r.optional_text(report, "name");
+    let shape = shape(report, &r).unwrap_or(STAND_IN);
+    let material = material::reference(report, &r);
+    let transform = transform(report, &r);
+    let flip_normals = r.bool(report, "flip_normals");
+    let emission = emission(report, &r);
+    let wrong_emission = r.given("radiance").or(r.given("power")).is_some() && emission.is_none();
+    Object {
+        name: name.flatten().map(|name| name.value),
+        shape: Sourced::at(shape, r.given("shape").map_or(node.span, |entry| entry.node.span)),
+        // A lamp whose emission is wrong shall not be told to have a material as well.
+        material: material.or(wrong_emission.then(|| crate::desc::Material::diffuse(0.0).into())),
+        transform,
+        flip_normals: flip_normals.unwrap_or(false),
+        emission,
+    }
+}
+
+fn emission(report: &mut Report, r: &Reader<'_>) -> Option<Sourced<Emission>> {
+    let radiance = r.optional_color(report, "radiance");
+    let power = power(report, r, "radiance");
+    let two_sided = r.bool(report, "two_sided_emission");
+    let given = r.given("radiance").or(r.given("power"));
+    if let (Some(entry), None) = (r.given("two_sided_emission"), given) {
+        let message = format!("`two_sided_emission` without `radiance` or `power` in {}", r.what);
+        report.push(Diagnostic::error("conflict", message).at(entry.key_span));
+    }
+    let amount = match (radiance?, power?) {
+        (Some(radiance), _) => EmissionAmount::Radiance(radiance),
+        (None, Some((watts, color))) => EmissionAmount::Power { watts, color },
+        (None, None) => return None,
+    };
+    Some(Sourced {
+        value: Emission { amount, two_sided: two_sided? },
+        span: given.map(|entry| entry.node.span),
+    })
+}
+
+fn shape(report: &mut Report, r: &Reader<'_>) -> Option<Shape> {
+    match r.variant()? {
+        "sphere" => {
+            let (center, radius) = (r.point(report, "center"), r.number(report, "radius"));
+            Some(Shape::Sphere { center: center?, radius: radius? })
+        }
+        "disk" => {
+            let (center, normal) = (r.point(report, "center"), r.point(report, "normal"));
+            let radius = r.number(report, "radius");
+            Some(Shape::Disk { center: center?, normal: normal?, radius: radius? })
+        }
+        "quad" => quad(report, r),
+        "mesh" => {
+            let (file, normals) = (r.file(report, "file"), normals(report, r));
+            Some(Shape::Mesh { file: file?, normals: normals? })
+        }
+        "triangles" => {
+            let (positions, indices) = (r.points(report, "positions"), r.indices(report, "indices"));
+            let (vertex_normals, uvs) = (r.points(report, "vertex_normals"), r.pairs(report, "uvs"));
+            let normals = normals(report, r);
+            Some(Shape::Triangles {
+                positions: positions?,
+                indices: indices?,
+                vertex_normals: vertex_normals?,
+                uvs: uvs?,
+                normals: normals?,
+            })
+        }
+        "box" => {
+            let (min, max) = (r.point(report, "min"), r.point(report, "max"));
+            Some(Shape::Box { min: min?, max: max? })
+        }
+        "teapot" => {
+            let (level, parts) = (r.integer(report, "level"), r.words(report, "parts"));
+            let parts = match parts? {
+                Some(words) => words.into_iter().filter_map(teapot_part).collect(),
+                None => TEAPOT_PARTS.to_vec(),
+            };
+            Some(Shape::Teapot { level: level?, parts })
+        }
+        "lathe" => {
+            let (profile, segments) = (r.pairs(report, "profile"), r.integer(report, "segments"));
+            let (smooth, closed) = (r.bool(report, "smooth"), r.bool(report, "closed"));
+            Some(Shape::Lathe { profile: profile?, segments: segments?, smooth: smooth?, closed: closed? })
+        }
+        "cylinder" => {
+            let (base, axis) = (r.point(report, "base"), r.point(report, "axis"));
+            let (radius, height) = (r.number(report, "radius"), r.number(report, "height"));
+            let (inward, segments) = (r.bool(report, "inward"), r.integer(report, "segments"));
+            Some(Shape::Cylinder {
+                base: base?,
+                axis: axis?,
+                radius: radius?,
+                height: height?,
+                inward: inward?,
+                segments: segments?,
+            })
+        }
+        "torus" => {
+            let (center, axis) = (r.point(report, "center"), r.point(report, "axis"));
+            let (major_radius, minor_radius) =
+                (r.number(report, "major_radius"), r.number(report, "minor_radius"));
+            let (segments, tube_segments) =
+                (r.integer(report, "segments"), r.integer(report, "tube_segments"));
+            Some(Shape::Torus {
+                center: center?,
+                axis: axis?,
+                major_radius: major_radius?,
+                minor_radius: minor_radius?,
+                segments: segments?,
+                tube_segments: tube_segments?,
+            })
+        }
+        _ => {
+            let (center, radius) = (r.point(report, "center"), r.number(report, "radius"));
+            let (level, smooth) = (r.integer(report, "level"), r.bool(report, "smooth"));
+            Some(Shape::Icosphere { center: center?, radius: radius?, level: level?, smooth: smooth? })
+        }
+    }
+}
+
+fn quad(report: &mut Report, r: &Reader<'_>) -> Option<Shape> {
+    let origin = r.optional_point(report, "origin");
+    let edge_u = r.optional_point(report, "edge_u");
+    let edge_v = r.optional_point(report, "edge_v");
+    let corners = r.optional_points(report, "corners");
+    let edges = ["origin", "edge_u", "edge_v"];
+    if let (Some(a), Some(b)) = (r.given("corners"), edges.iter().find_map(|name| r.given(name))) {
+        r.conflict(report, a, b);
+        return None;
+    }
+    if r.given("corners").is_some() {
+        let corners = corners??;
+        return Some(Shape::Corners {
+            corners: [*corners.first()?, *corners.get(1)?, *corners.get(2)?, *corners.get(3)?],
+        });
+    }
+    let absent: Vec<&str> = edges.into_iter().filter(|name| r.given(name).is_none()).collect();
+    if absent.len() == edges.len() {
+        let message = format!("missing `origin`, `edge_u` and `edge_v` in {}", r.what);
+        report.push(Diagnostic::error("missing-key", message).at(r.span).help("or give four `corners`"));
+        return None;
+    }
+    for name in &absent {
+        r.missing(report, name);
+    }
+    Some(Shape::Quad { origin: origin??, edge_u: edge_u??, edge_v: edge_v?? })
+}
+
+fn normals(report: &mut Report, r: &Reader<'_>) -> Option<Normals> {
+    let word = r.word(report, "normals");
+    let crease = r.optional_number(report, "crease_angle");
+    let (word, crease) = (word?, crease?);
+    if let (Some(entry), true) = (r.given("crease_angle"), word != "smooth") {
+        let message = format!("`crease_angle` without normals = \"smooth\" in {}", r.what);
+        report.push(Diagnostic::error("conflict", message).at(entry.key_span));
+        return None;
+    }
+    Some(match word {
+        "flat" => Normals::Flat,
+        "smooth" => Normals::Smooth { crease_degrees: crease.unwrap_or(180.0) },
+        _ => Normals::Given,
+    })
+}
+
+fn teapot_part(name: &str) -> Option<TeapotPart> {
+    Some(match name {
+        "body" => TeapotPart::Body,
+        "handle" => TeapotPart::Handle,
+        "spout" => TeapotPart::Spout,
+        "lid" => TeapotPart::Lid,
+        "bottom" => TeapotPart::Bottom,
+        _ => return None,
+    })
+}
+
+/// The steps of `transform`: a list, or one step alone. Wrong steps are left out.
+fn transform(report: &mut Report, r: &Reader<'_>) -> TransformSteps {
+    let Some(Entry { node, .. }) = r.given("transform") else { return Vec::new() };
+    let what = r.label("transform");
+    match &node.value {
+        Value::Array(items) => items
+            .iter()
+            .enumerate()
+            .filter_map(|(i, item)| step(report, format!("step {} of {what}", i + 1), item))
+            .collect(),
+        Value::Table(_) => step(report, what, node).into_iter().collect(),
+        _ => {
+            crate::convert::wrong_type(report, &what, &spec::Kind::Transform.text(), node);
+            Vec::new()
+        }
+    }
+}
+
+fn step(report: &mut Report, what: String, node: &Node) -> Option<TransformStep> {
+    let table = as_table(report, &what, node)?;
+    let r = Reader::new(report, &spec::TRANSFORM, what, table, node.span);
+    let (first, second) = (table.entries.first(), table.entries.get(1));
+    let Some(first) = first else {
+        let names: Vec<_> = spec::TRANSFORM.keys.iter().map(|key| key.name).collect();
+        let message = format!("{} is empty", r.what);
+        report.push(
+            Diagnostic::error("missing-key", message)
+                .at(node.span)
+                .help(format!("a step is one of {}", names.join(", "))),
+        );
+        return None;
+    };
+    if let Some(second) = second {
+        let message = format!("{} has several keys: their order would not count", r.what);
+        report.push(
+            Diagnostic::error("conflict", message)
+                .at(second.key_span)
+                .help(format!("write [{{ {} = … }}, {{ {} = … }}]", first.key, second.key)),
+        );
+        return None;
+    }
+    match first.key.as_str() {
+        "translate" => r.point(report, "translate").map(TransformStep::Translate),
+        "scale" => r.factors(report, "scale").map(TransformStep::Scale),
+        "matrix" => {
+            r.matrix(report, "matrix").and_then(|matrix| affine(report, matrix, &r.what, first.node.span))
+        }
+        "rotate" => {
+            let r = r.inner(report, "rotate")??;
+            let (axis, degrees) = (r.point(report, "axis"), r.number(report, "degrees"));
+            Some(TransformStep::Rotate { axis: axis?, degrees: degrees? })
+        }
+        "look_at" => {
+            let r = r.inner(report, "look_at")??;
+            let (position, target, up) =
+                (r.point(report, "position"), r.point(report, "target"), r.point(report, "up"));
+            let (position, target, up) = (position?, target?, up?);
+            if let Some(reason) = crate::check::view_fault(position, target, up) {
+                let message = format!("{reason} in {}", r.what);
+                report.push(Diagnostic::error("degenerate", message).at(first.node.span));
+                return None;
+            }
+            Some(TransformStep::LookAt { position, target, up })
+        }
+        _ => None,
+    }
+}
+
+fn affine(report: &mut Report, matrix: [f32; 16], what: &str, span: Span) -> Option<TransformStep> {
+    let step = TransformStep::Matrix(matrix);
+    if let Some(reason) = crate::check::step_fault(&step) {
+        report.push(Diagnostic::error("degenerate", format!("{reason} in {what}")).at(span));
+        return None;
+    }
+    Some(step)
+}
+
+pub(super) fn instance(report: &mut Report, what: String, node: &Node) -> Option<Instance> {
+    let table = as_table(report, &what, node)?;
+    let r = Reader::new(report, &spec::INSTANCES, what, table, node.span);
+    let name = r.optional_text(report, "name");
+    let group = r.text(report, "group");
+    let transform = transform(report, &r);
+    let material = material::reference(report, &r);
+    Some(Instance { name: name.flatten().map(|name| name.value), group: group?, transform, material })
+}

@@ -1,0 +1,127 @@
+//! `[render]`, `[film]`, `[camera]`, `[photon_map]`.
+
+use crate::desc::{
+    Camera, CameraKind, Film, FilterKind, FovAxis, IntegratorKind, PhotonFilter, PhotonMap, Render,
+    SceneDesc, View,
+};
+use crate::diagnostic::{Diagnostic, Report};
+use crate::reader::Reader;
+use crate::source::Sourced;
+
+/// Pixels of a picture, at most.
+const MOST_PIXELS: u64 = 1 << 30;
+
+pub(super) fn render(report: &mut Report, r: &Reader<'_>, desc: &mut SceneDesc) {
+    let integrator = r.word(report, "integrator").map(|word| match word {
+        "path" => IntegratorKind::Path,
+        _ => IntegratorKind::PhotonMap,
+    });
+    let passes = r.integer(report, "passes");
+    let seed = r.integer(report, "seed");
+    let max_depth = r.optional_integer(report, "max_depth");
+    if let (Some(integrator), Some(passes), Some(seed), Some(max_depth)) =
+        (integrator, passes, seed, max_depth)
+    {
+        desc.render = Render { integrator, passes, seed, max_depth };
+    }
+}
+
+pub(super) fn film(report: &mut Report, r: &Reader<'_>, desc: &mut SceneDesc) {
+    let size = r.size(report, "size");
+    let filter = r.word(report, "filter").map(|word| match word {
+        "box" => FilterKind::Box,
+        "gaussian" => FilterKind::Gaussian,
+        "mitchell" => FilterKind::Mitchell,
+        _ => FilterKind::BlackmanHarris,
+    });
+    let filter_radius = r.optional_number(report, "filter_radius");
+    let exposure = r.number(report, "exposure");
+    let view = r.word(report, "view").map(|word| if word == "srgb" { View::Srgb } else { View::Agx });
+    if let (Some([width, height]), Some(entry)) = (size, r.given("size"))
+        && width as u64 * height as u64 > MOST_PIXELS
+    {
+        let message = format!("a picture of {width} x {height} has more than 2^30 pixels");
+        report.push(Diagnostic::error("out-of-range", message).at(entry.node.span));
+    }
+    if let (Some(size), Some(filter), Some(filter_radius), Some(exposure), Some(view)) =
+        (size, filter, filter_radius, exposure, view)
+    {
+        desc.film = Film { size, filter, filter_radius, exposure, view };
+    }
+}
+
+pub(super) fn camera(report: &mut Report, r: &Reader<'_>, desc: &mut SceneDesc) {
+    let camera = read_camera(report, r);
+    // Any camera will do once a mistake is reported, but for a check of its own geometry: the default passes.
+    desc.camera = Some(Sourced::at(camera.unwrap_or_default(), r.span));
+}
+
+fn read_camera(report: &mut Report, r: &Reader<'_>) -> Option<Camera> {
+    let kind = match r.variant() {
+        Some("thin-lens") => {
+            let lens_radius = r.number(report, "lens_radius");
+            let focus_distance = r.optional_number(report, "focus_distance");
+            lens_radius
+                .zip(focus_distance)
+                .map(|(lens_radius, focus_distance)| CameraKind::ThinLens { lens_radius, focus_distance })
+        }
+        Some(_) => Some(CameraKind::Pinhole),
+        None => None,
+    };
+    let position = r.point(report, "position");
+    let look_at = r.point(report, "look_at");
+    let up = r.point(report, "up");
+    let fov = r.number(report, "fov");
+    let fov_axis = r.word(report, "fov_axis").map(|word| match word {
+        "x" => FovAxis::X,
+        "y" => FovAxis::Y,
+        _ => FovAxis::Smaller,
+    });
+    Some(Camera {
+        kind: kind?,
+        position: position?,
+        look_at: look_at?,
+        up: up?,
+        fov: fov?,
+        fov_axis: fov_axis?,
+    })
+}
+
+fn kernel(report: &mut Report, r: &Reader<'_>, name: &str) -> Option<PhotonFilter> {
+    r.word(report, name).map(|word| match word {
+        "cone" => PhotonFilter::Cone,
+        "epanechnikov" => PhotonFilter::Epanechnikov,
+        _ => PhotonFilter::Constant,
+    })
+}
+
+pub(super) fn photon_map(report: &mut Report, r: &Reader<'_>, desc: &mut SceneDesc) {
+    if let Some(photon_map) = read_photon_map(report, r) {
+        desc.photon_map = photon_map;
+    }
+}
+
+fn read_photon_map(report: &mut Report, r: &Reader<'_>) -> Option<PhotonMap> {
+    let photons = r.integer(report, "photons");
+    let caustic_photons = r.integer(report, "caustic_photons");
+    let knn = r.integer(report, "knn");
+    let caustic_knn = r.integer(report, "caustic_knn");
+    let filter = kernel(report, r, "filter");
+    let caustic_filter = kernel(report, r, "caustic_filter");
+    let radius = r.optional_number(report, "radius");
+    let caustic_radius = r.optional_number(report, "caustic_radius");
+    let final_gather = r.integer(report, "final_gather");
+    let caustic_gain = r.number(report, "caustic_gain");
+    Some(PhotonMap {
+        photons: photons?,
+        caustic_photons: caustic_photons?,
+        knn: knn?,
+        caustic_knn: caustic_knn?,
+        filter: filter?,
+        caustic_filter: caustic_filter?,
+        radius: radius?,
+        caustic_radius: caustic_radius?,
+        final_gather: final_gather?,
+        caustic_gain: caustic_gain?,
+    })
+}

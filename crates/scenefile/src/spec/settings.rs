@@ -1,0 +1,228 @@
+//! `[render]`, `[film]`, `[camera]`, `[photon_map]`.
+
+use super::Kind::{Direction, Integer, Number, Point, Size};
+use super::Preset::{Absent, Pair, Required, Triple};
+use super::{
+    Form, Kind, NON_NEGATIVE, POSITIVE, Preset, Range, Section, Switch, Variant, Word, closed, key, word,
+};
+
+const INTEGRATORS: &[Word] = &[
+    word("photon_map", "Two-pass photon mapping: caustic and global map, final gathering."),
+    word("path", "Unidirectional path tracing with light sampling."),
+];
+
+/// `[render]`.
+pub const RENDER: Section = Section {
+    name: "render",
+    noun: "table",
+    form: Form::Table,
+    doc: "What to compute.",
+    switch: None,
+    keys: &[
+        key("integrator", Kind::Word(INTEGRATORS), "", Preset::Word("photon_map"), "The algorithm."),
+        key(
+            "passes",
+            Integer(1, 1_000_000_000),
+            "",
+            Preset::Integer(16),
+            "Passes, each one camera sample a pixel.",
+        ),
+        key("seed", Integer(0, u64::MAX as i128), "", Preset::Integer(0), "Seed of every random number."),
+        key(
+            "max_depth",
+            Integer(1, u32::MAX as i128),
+            "scattering events",
+            Absent("unlimited"),
+            "The longest path, counted in scattering events; 1 is direct light only.",
+        ),
+    ],
+    example: "[render]\nintegrator = \"path\"\npasses = 64\nmax_depth = 8\n",
+};
+
+const FILTERS: &[Word] = &[
+    word("box", "Constant over a pixel."),
+    word("gaussian", "Gaussian."),
+    word("mitchell", "Mitchell and Netravali, B = C = 1/3."),
+    word("blackman-harris", "Blackman-Harris window."),
+];
+
+const VIEWS: &[Word] =
+    &[word("agx", "AgX: highlights roll off as on film."), word("srgb", "The plain sRGB curve, clipped.")];
+
+/// `[film]`.
+pub const FILM: Section = Section {
+    name: "film",
+    noun: "table",
+    form: Form::Table,
+    doc: "The picture.",
+    switch: None,
+    keys: &[
+        key(
+            "size",
+            Size(1, 65536),
+            "pixels",
+            Pair([512.0, 512.0]),
+            "Width and height; 2^30 pixels in all at most.",
+        ),
+        key("filter", Kind::Word(FILTERS), "", Preset::Word("blackman-harris"), "The pixel filter."),
+        key(
+            "filter_radius",
+            Number(Range { max: 16.0, open_max: false, ..POSITIVE }),
+            "pixels",
+            Absent("the filter's own"),
+            "Half the width of the filter.",
+        ),
+        key(
+            "exposure",
+            Number(closed(-64.0, 64.0)),
+            "EV",
+            Preset::Number(0.0),
+            "PNG only: radiance is multiplied by 2^exposure.",
+        ),
+        key(
+            "view",
+            Kind::Word(VIEWS),
+            "",
+            Preset::Word("agx"),
+            "PNG only: how radiance becomes display colour.",
+        ),
+    ],
+    example: "[film]\nsize = [640, 480]\nexposure = 1.5\n",
+};
+
+const FOV_AXES: &[Word] =
+    &[word("x", "The width."), word("y", "The height."), word("smaller", "The smaller of the two.")];
+
+/// `[camera]`.
+pub const CAMERA: Section = Section {
+    name: "camera",
+    noun: "table",
+    form: Form::Table,
+    doc: "The camera; every scene has one.",
+    switch: Some(Switch {
+        key: "kind",
+        preset: Some("pinhole"),
+        variants: &[
+            Variant {
+                name: "pinhole",
+                doc: "All is in focus.",
+                keys: &[],
+                example: "[camera]\nposition = [0, 1, 5]\nlook_at = [0, 1, 0]\nfov = 40\n",
+            },
+            Variant {
+                name: "thin-lens",
+                doc: "A lens that focuses on one plane.",
+                keys: &[&[
+                    key("lens_radius", Number(POSITIVE), "scene units", Required, "Radius of the aperture."),
+                    key(
+                        "focus_distance",
+                        Number(POSITIVE),
+                        "scene units",
+                        Absent("the distance to look_at"),
+                        "Distance of the plane in focus, along the view direction.",
+                    ),
+                ]],
+                example: "[camera]\nkind = \"thin-lens\"\nposition = [0, 1, 5]\nlook_at = [0, 1, 0]\nlens_radius = 0.05\n",
+            },
+        ],
+    }),
+    keys: &[
+        key("position", Point, "scene units", Required, "The eye."),
+        key("look_at", Point, "scene units", Required, "What is in the middle of the picture."),
+        key("up", Direction, "", Triple([0.0, 1.0, 0.0]), "What is up in the picture."),
+        key(
+            "fov",
+            Number(Range { max: 180.0, ..POSITIVE }),
+            "degrees",
+            Preset::Number(40.0),
+            "The full field of view.",
+        ),
+        key(
+            "fov_axis",
+            Kind::Word(FOV_AXES),
+            "",
+            Preset::Word("smaller"),
+            "The side of the picture that fov spans.",
+        ),
+    ],
+    example: "",
+};
+
+const KERNELS: &[Word] = &[
+    word("constant", "All photons within the radius count the same."),
+    word("cone", "Weight falls linearly to 0 at the radius."),
+    word("epanechnikov", "Weight 1 - (distance / radius)^2, smooth and with the least variance."),
+];
+
+const MOST_PHOTONS: Kind = Integer(0, 1_000_000_000);
+const NEIGHBOURS: Kind = Integer(2, 100_000);
+
+/// `[photon_map]`.
+pub const PHOTON_MAP: Section = Section {
+    name: "photon_map",
+    noun: "table",
+    form: Form::Table,
+    doc: "Two-pass photon mapping (render.integrator = \"photon_map\").",
+    switch: None,
+    keys: &[
+        key(
+            "photons",
+            MOST_PHOTONS,
+            "photons",
+            Preset::Integer(200_000),
+            "Photons emitted for the global map.",
+        ),
+        key(
+            "caustic_photons",
+            MOST_PHOTONS,
+            "photons",
+            Preset::Integer(400_000),
+            "Photons emitted for the caustic map, aimed at mirrors, metal and glass.",
+        ),
+        key("knn", NEIGHBOURS, "photons", Preset::Integer(100), "Neighbours of a lookup in the global map."),
+        key(
+            "caustic_knn",
+            NEIGHBOURS,
+            "photons",
+            Preset::Integer(60),
+            "Neighbours of a lookup in the caustic map.",
+        ),
+        key("filter", Kind::Word(KERNELS), "", Preset::Word("constant"), "The kernel of the global map."),
+        key(
+            "caustic_filter",
+            Kind::Word(KERNELS),
+            "",
+            Preset::Word("epanechnikov"),
+            "The kernel of the caustic map.",
+        ),
+        key(
+            "radius",
+            Number(POSITIVE),
+            "scene units",
+            Absent("automatic"),
+            "The greatest distance of a neighbour in the global map.",
+        ),
+        key(
+            "caustic_radius",
+            Number(POSITIVE),
+            "scene units",
+            Absent("automatic"),
+            "The greatest distance of a neighbour in the caustic map.",
+        ),
+        key(
+            "final_gather",
+            Integer(0, 65536),
+            "rays",
+            Preset::Integer(16),
+            "Gather rays a camera sample; 0 looks the global map up directly.",
+        ),
+        key(
+            "caustic_gain",
+            Number(NON_NEGATIVE),
+            "",
+            Preset::Number(1.0),
+            "A factor on caustics for artists; 1 is physically right.",
+        ),
+    ],
+    example: "[photon_map]\nphotons = 300_000\nknn = 500\ncaustic_photons = 600_000\ncaustic_knn = 80\n",
+};

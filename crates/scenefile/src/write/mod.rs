@@ -1,0 +1,483 @@
+//! A description as TOML that a person can go on with: tables in the order of the reference, defaults left out.
+
+mod value;
+
+use std::fmt::Write as _;
+
+use crate::desc::ColorSpace;
+use crate::desc::{
+    Camera, CameraKind, Emission, EmissionAmount, FilterKind, FovAxis, Instance, IntegratorKind, Light,
+    LightKind, Material, MaterialKind, MaterialRef, Metal, Normals, Object, PhotonFilter, PointAmount,
+    SceneDesc, Shape, TEAPOT_PARTS, TeapotPart, Texture, TextureFilter, TransformStep, View, Wrap,
+};
+use crate::spec::{self, Section};
+use value::{Fields, number, quote, triple};
+
+/// The text of a description: [`parse`](crate::parse) of it gives an equal description, if the base folder is the same
+/// and every value is one that a scene file may have. File names are written as they are.
+pub fn to_toml(desc: &SceneDesc) -> String {
+    let mut out = String::new();
+    let tables = [("render", render(desc)), ("film", film(desc)), ("photon_map", photon_map(desc))];
+    for (name, fields) in &tables[..2] {
+        block(&mut out, &format!("[{name}]"), fields, false);
+    }
+    if let Some(camera) = &desc.camera {
+        block(&mut out, "[camera]", &camera_fields(camera), true);
+    }
+    block(&mut out, "[photon_map]", &tables[2].1, false);
+    for (name, texture) in &desc.textures {
+        block(&mut out, &format!("[textures.{}]", value::key(name)), &texture_fields(texture), true);
+    }
+    for (name, material) in &desc.materials {
+        block(&mut out, &format!("[materials.{}]", value::key(name)), &material_fields(material), true);
+    }
+    for object in &desc.objects {
+        block(&mut out, "[[objects]]", &object_fields(object), true);
+    }
+    for light in &desc.lights {
+        block(&mut out, "[[lights]]", &light_fields(light), true);
+    }
+    for (name, group) in &desc.groups {
+        let name = value::key(name);
+        if group.objects.is_empty() {
+            let _ = writeln!(out, "[groups.{name}]\nobjects = []\n");
+        }
+        for object in &group.objects {
+            block(&mut out, &format!("[[groups.{name}.objects]]"), &object_fields(object), true);
+        }
+    }
+    for instance in &desc.instances {
+        block(&mut out, "[[instances]]", &instance_fields(instance), true);
+    }
+    while out.ends_with("\n\n") {
+        out.pop();
+    }
+    out
+}
+
+/// A header and its keys; nothing where there are no keys and none are needed.
+fn block(out: &mut String, header: &str, fields: &Fields, always: bool) {
+    if fields.lines.is_empty() && !always {
+        return;
+    }
+    let _ = writeln!(out, "{header}");
+    for (key, value) in &fields.lines {
+        let _ = writeln!(out, "{key} = {value}");
+    }
+    out.push('\n');
+}
+
+fn fields(section: &'static Section, kind: Option<&'static str>) -> Fields {
+    Fields::new(section, kind)
+}
+
+fn render(desc: &SceneDesc) -> Fields {
+    let render = &desc.render;
+    let mut f = fields(&spec::RENDER, None);
+    f.word(
+        "integrator",
+        match render.integrator {
+            IntegratorKind::PhotonMap => "photon_map",
+            IntegratorKind::Path => "path",
+        },
+    );
+    f.integer("passes", render.passes);
+    f.integer("seed", render.seed);
+    if let Some(depth) = render.max_depth {
+        f.integer("max_depth", depth);
+    }
+    f
+}
+
+fn film(desc: &SceneDesc) -> Fields {
+    let film = &desc.film;
+    let mut f = fields(&spec::FILM, None);
+    f.pair("size", film.size.map(|x| x.to_string()));
+    f.word(
+        "filter",
+        match film.filter {
+            FilterKind::Box => "box",
+            FilterKind::Gaussian => "gaussian",
+            FilterKind::Mitchell => "mitchell",
+            FilterKind::BlackmanHarris => "blackman-harris",
+        },
+    );
+    f.optional_number("filter_radius", film.filter_radius);
+    f.number("exposure", film.exposure);
+    f.word(
+        "view",
+        match film.view {
+            View::Agx => "agx",
+            View::Srgb => "srgb",
+        },
+    );
+    f
+}
+
+fn camera_fields(camera: &Camera) -> Fields {
+    let (kind, lens) = match camera.kind {
+        CameraKind::Pinhole => ("pinhole", None),
+        CameraKind::ThinLens { lens_radius, focus_distance } => {
+            ("thin-lens", Some((lens_radius, focus_distance)))
+        }
+    };
+    let mut f = fields(&spec::CAMERA, Some(kind));
+    f.triple("position", camera.position);
+    f.triple("look_at", camera.look_at);
+    f.triple("up", camera.up);
+    f.number("fov", camera.fov);
+    f.word(
+        "fov_axis",
+        match camera.fov_axis {
+            FovAxis::X => "x",
+            FovAxis::Y => "y",
+            FovAxis::Smaller => "smaller",
+        },
+    );
+    if let Some((lens_radius, focus_distance)) = lens {
+        f.number("lens_radius", lens_radius);
+        f.optional_number("focus_distance", focus_distance);
+    }
+    f
+}
+
+fn photon_map(desc: &SceneDesc) -> Fields {
+    let map = &desc.photon_map;
+    let kernel = |filter| match filter {
+        PhotonFilter::Constant => "constant",
+        PhotonFilter::Cone => "cone",
+        PhotonFilter::Epanechnikov => "epanechnikov",
+    };
+    let mut f = fields(&spec::PHOTON_MAP, None);
+    f.integer("photons", map.photons);
+    f.integer("caustic_photons", map.caustic_photons);
+    f.integer("knn", map.knn);
+    f.integer("caustic_knn", map.caustic_knn);
+    f.word("filter", kernel(map.filter));
+    f.word("caustic_filter", kernel(map.caustic_filter));
+    f.optional_number("radius", map.radius);
+    f.optional_number("caustic_radius", map.caustic_radius);
+    f.integer("final_gather", map.final_gather);
+    f.number("caustic_gain", map.caustic_gain);
+    f
+}
+
+fn texture_fields(texture: &Texture) -> Fields {
+    match texture {
+        Texture::Image { file, color_space, wrap, filter, scale, offset } => {
+            let mut f = fields(&spec::TEXTURES, Some("image"));
+            f.text("file", &file.to_string_lossy());
+            f.word(
+                "color_space",
+                match color_space {
+                    ColorSpace::Srgb => "srgb",
+                    ColorSpace::Linear => "linear",
+                },
+            );
+            f.word(
+                "wrap",
+                match wrap {
+                    Wrap::Repeat => "repeat",
+                    Wrap::Clamp => "clamp",
+                    Wrap::Mirror => "mirror",
+                },
+            );
+            f.word(
+                "filter",
+                match filter {
+                    TextureFilter::Trilinear => "trilinear",
+                    TextureFilter::Bilinear => "bilinear",
+                    TextureFilter::Nearest => "nearest",
+                },
+            );
+            f.factor_pair("scale", *scale);
+            f.pair("offset", offset.map(number));
+            f
+        }
+        Texture::Checker { a, b, scale } => {
+            let mut f = fields(&spec::TEXTURES, Some("checker"));
+            f.color("a", a);
+            f.color("b", b);
+            f.factor_pair("scale", *scale);
+            f
+        }
+    }
+}
+
+fn material_fields(material: &Material) -> Fields {
+    let kind = match &material.kind {
+        MaterialKind::Diffuse { .. } => "diffuse",
+        MaterialKind::Phong { .. } => "phong",
+        MaterialKind::Mirror { .. } => "mirror",
+        MaterialKind::Dielectric { .. } => "dielectric",
+        MaterialKind::Conductor { .. } => "conductor",
+        MaterialKind::Plastic { .. } => "plastic",
+    };
+    let mut f = fields(&spec::MATERIALS, Some(kind));
+    match &material.kind {
+        MaterialKind::Diffuse { color } | MaterialKind::Mirror { color } => f.color("color", color),
+        MaterialKind::Phong { diffuse, specular, exponent } => {
+            f.color("diffuse", diffuse);
+            f.color("specular", specular);
+            f.float("exponent", exponent);
+        }
+        MaterialKind::Dielectric { ior, color, priority } => {
+            f.ior("ior", ior);
+            f.color("color", color);
+            f.integer("priority", *priority);
+        }
+        MaterialKind::Conductor { metal, roughness } => {
+            match metal {
+                Metal::Named(name) => f.text("metal", name),
+                Metal::Index { n, k } => {
+                    f.triple("n", *n);
+                    f.triple("k", *k);
+                }
+            }
+            f.float("roughness", roughness);
+        }
+        MaterialKind::Plastic { color, ior, roughness } => {
+            f.color("color", color);
+            f.ior("ior", ior);
+            f.float("roughness", roughness);
+        }
+    }
+    if let Some(name) = &material.normal_map {
+        f.text("normal_map", name);
+    }
+    f.number("normal_strength", material.normal_strength);
+    if kind != "dielectric" {
+        f.bool("two_sided", material.two_sided);
+    }
+    f
+}
+
+fn material_ref(f: &mut Fields, material: Option<&MaterialRef>) {
+    match material {
+        Some(MaterialRef::Named(name)) => f.text("material", name),
+        Some(MaterialRef::Inline(material)) => f.raw("material", material_fields(material).inline()),
+        None => {}
+    }
+}
+
+fn transform(f: &mut Fields, steps: &[TransformStep]) {
+    let step = |step: &TransformStep| match step {
+        TransformStep::Translate(by) => format!("{{ translate = {} }}", triple(*by)),
+        TransformStep::Rotate { axis, degrees } => {
+            format!("{{ rotate = {{ axis = {}, degrees = {} }} }}", triple(*axis), number(*degrees))
+        }
+        TransformStep::Scale(by) => format!("{{ scale = {} }}", triple(*by)),
+        TransformStep::LookAt { position, target, up } => format!(
+            "{{ look_at = {{ position = {}, target = {}, up = {} }} }}",
+            triple(*position),
+            triple(*target),
+            triple(*up)
+        ),
+        TransformStep::Matrix(m) => format!("{{ matrix = [{}] }}", m.map(number).join(", ")),
+    };
+    if !steps.is_empty() {
+        f.raw("transform", format!("[{}]", steps.iter().map(step).collect::<Vec<_>>().join(", ")));
+    }
+}
+
+fn object_fields(object: &Object) -> Fields {
+    let mut f = shape_fields(&object.shape);
+    if let Some(name) = &object.name {
+        f.first("name", quote(name));
+    }
+    material_ref(&mut f, object.material.as_ref());
+    transform(&mut f, &object.transform);
+    f.bool("flip_normals", object.flip_normals);
+    if let Some(emission) = &object.emission {
+        emission_fields(&mut f, emission);
+    }
+    f
+}
+
+fn emission_fields(f: &mut Fields, emission: &Emission) {
+    match emission.amount {
+        EmissionAmount::Radiance(radiance) => f.triple("radiance", radiance),
+        EmissionAmount::Power { watts, color } => power(f, watts, color),
+    }
+    if emission.two_sided {
+        f.raw("two_sided_emission", "true".into());
+    }
+}
+
+fn power(f: &mut Fields, watts: f32, color: [f32; 3]) {
+    f.number("power", watts);
+    if color != [1.0; 3] {
+        f.triple("color", color);
+    }
+}
+
+fn shape_fields(shape: &Shape) -> Fields {
+    let new = |kind| fields(&spec::OBJECTS, Some(kind));
+    match shape {
+        Shape::Sphere { center, radius } => {
+            let mut f = new("sphere");
+            f.triple("center", *center);
+            f.number("radius", *radius);
+            f
+        }
+        Shape::Disk { center, normal, radius } => {
+            let mut f = new("disk");
+            f.triple("center", *center);
+            f.triple("normal", *normal);
+            f.number("radius", *radius);
+            f
+        }
+        Shape::Quad { origin, edge_u, edge_v } => {
+            let mut f = new("quad");
+            f.triple("origin", *origin);
+            f.triple("edge_u", *edge_u);
+            f.triple("edge_v", *edge_v);
+            f
+        }
+        Shape::Corners { corners } => {
+            let mut f = new("quad");
+            f.list("corners", corners, |p| triple(*p));
+            f
+        }
+        Shape::Mesh { file, normals } => {
+            let mut f = new("mesh");
+            f.text("file", &file.to_string_lossy());
+            normals_fields(&mut f, *normals);
+            f
+        }
+        Shape::Triangles { positions, indices, vertex_normals, uvs, normals } => {
+            let mut f = new("triangles");
+            f.list("positions", positions, |p| triple(*p));
+            f.list("indices", indices, |t| format!("[{}, {}, {}]", t[0], t[1], t[2]));
+            if !vertex_normals.is_empty() {
+                f.list("vertex_normals", vertex_normals, |n| triple(*n));
+            }
+            if !uvs.is_empty() {
+                f.list("uvs", uvs, |uv| format!("[{}, {}]", number(uv[0]), number(uv[1])));
+            }
+            normals_fields(&mut f, *normals);
+            f
+        }
+        Shape::Box { min, max } => {
+            let mut f = new("box");
+            f.triple("min", *min);
+            f.triple("max", *max);
+            f
+        }
+        Shape::Teapot { level, parts } => {
+            let mut f = new("teapot");
+            f.integer("level", *level);
+            if parts[..] != TEAPOT_PARTS {
+                f.list("parts", parts, |part| quote(part_name(*part)));
+            }
+            f
+        }
+        Shape::Lathe { profile, segments, smooth, closed } => {
+            let mut f = new("lathe");
+            f.list("profile", profile, |p| format!("[{}, {}]", number(p[0]), number(p[1])));
+            f.integer("segments", *segments);
+            f.bool("smooth", *smooth);
+            f.bool("closed", *closed);
+            f
+        }
+        Shape::Cylinder { base, axis, radius, height, inward, segments } => {
+            let mut f = new("cylinder");
+            f.triple("base", *base);
+            f.triple("axis", *axis);
+            f.number("radius", *radius);
+            f.number("height", *height);
+            f.bool("inward", *inward);
+            f.integer("segments", *segments);
+            f
+        }
+        Shape::Torus { center, axis, major_radius, minor_radius, segments, tube_segments } => {
+            let mut f = new("torus");
+            f.triple("center", *center);
+            f.triple("axis", *axis);
+            f.number("major_radius", *major_radius);
+            f.number("minor_radius", *minor_radius);
+            f.integer("segments", *segments);
+            f.integer("tube_segments", *tube_segments);
+            f
+        }
+        Shape::Icosphere { center, radius, level, smooth } => {
+            let mut f = new("icosphere");
+            f.triple("center", *center);
+            f.number("radius", *radius);
+            f.integer("level", *level);
+            f.bool("smooth", *smooth);
+            f
+        }
+    }
+}
+
+fn normals_fields(f: &mut Fields, normals: Normals) {
+    match normals {
+        Normals::Given => {}
+        Normals::Flat => f.word("normals", "flat"),
+        Normals::Smooth { crease_degrees } => {
+            f.word("normals", "smooth");
+            if crease_degrees != 180.0 {
+                f.number("crease_angle", crease_degrees);
+            }
+        }
+    }
+}
+
+fn part_name(part: TeapotPart) -> &'static str {
+    match part {
+        TeapotPart::Body => "body",
+        TeapotPart::Handle => "handle",
+        TeapotPart::Spout => "spout",
+        TeapotPart::Lid => "lid",
+        TeapotPart::Bottom => "bottom",
+    }
+}
+
+fn light_fields(light: &Light) -> Fields {
+    let amount = |f: &mut Fields, amount: &PointAmount| match amount {
+        PointAmount::Intensity(intensity) => f.triple("intensity", *intensity),
+        PointAmount::Power { watts, color } => power(f, *watts, *color),
+    };
+    let mut f;
+    match &light.kind {
+        LightKind::Point { position, amount: much } => {
+            f = fields(&spec::LIGHTS, Some("point"));
+            f.triple("position", *position);
+            amount(&mut f, much);
+        }
+        LightKind::Spot { position, direction, cone_angle, falloff_angle, amount: much } => {
+            f = fields(&spec::LIGHTS, Some("spot"));
+            f.triple("position", *position);
+            f.triple("direction", *direction);
+            f.number("cone_angle", *cone_angle);
+            // Always: the default gives way to narrow cones.
+            f.raw("falloff_angle", number(*falloff_angle));
+            amount(&mut f, much);
+        }
+        LightKind::Directional { direction, irradiance } => {
+            f = fields(&spec::LIGHTS, Some("directional"));
+            f.triple("direction", *direction);
+            f.triple("irradiance", *irradiance);
+        }
+        LightKind::Environment { radiance } => {
+            f = fields(&spec::LIGHTS, Some("environment"));
+            f.triple("radiance", *radiance);
+        }
+    }
+    if let Some(name) = &light.name {
+        f.first("name", quote(name));
+    }
+    f
+}
+
+fn instance_fields(instance: &Instance) -> Fields {
+    let mut f = fields(&spec::INSTANCES, None);
+    if let Some(name) = &instance.name {
+        f.text("name", name);
+    }
+    f.text("group", &instance.group);
+    material_ref(&mut f, instance.material.as_ref());
+    transform(&mut f, &instance.transform);
+    f
+}
