@@ -145,7 +145,7 @@ mod tests {
 
     #[test]
     fn a_cylinder_has_radial_normals() {
-        let mesh = cylinder(3.0, 2.0, 90);
+        let mesh = cylinder(3.0, 2.0, 92);
         mesh.validate().unwrap();
         assert!(!mesh.is_closed());
         assert_eq!(mesh.bounds().max, Vec3::new(3.0, 2.0, 3.0));

@@ -59,15 +59,15 @@ fn tube(path: &[Station], within: f64, across: f64, sides: u32) -> TriangleMesh 
     let at = |station: usize, j: f64, radius: f64, end: f64| {
         let s = path[station];
         let (cos, sin) = turn(j, sides);
-        // To the left of the direction of travel; with z it makes a right-handed section seen against the travel.
+        // To the left of the direction of travel; from there columns turn to +z, so that the outside is outside.
         let left = s.leaves.perp().extend(0.0);
         let normal = if end == 0.0 {
-            left * (cos * across) - DVec3::Z * (sin * within)
+            left * (cos * across) + DVec3::Z * (sin * within)
         } else {
             s.leaves.extend(0.0) * end
         };
         Vertex {
-            position: s.point.extend(0.0) + (left * (cos * within) - DVec3::Z * (sin * across)) * radius,
+            position: s.point.extend(0.0) + (left * (cos * within) + DVec3::Z * (sin * across)) * radius,
             normal,
             uv: DVec2::new(j / f64::from(sides), station as f64 / last as f64),
         }
