@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use crate::fixed::{Fixed96, units};
+use crate::fixed::{Fixed96, small_units, units};
 use crate::{FilmError, Layer, NonFinite, PassFilm, PixelSample};
 
 /// Bits after the point of the sums of albedos and normals.
@@ -79,8 +79,8 @@ impl Sums {
         let luminance = sample.weight * color::luminance(sample.beauty());
         self.square += units((luminance * luminance).min(MAX_SQUARE), SQUARE_BITS);
         for i in 0..3 {
-            self.albedo[i] += units(sample.albedo[i], SMALL_BITS) as i64;
-            self.normal[i] += units(sample.normal[i], SMALL_BITS) as i64;
+            self.albedo[i] += small_units::<SMALL_BITS>(sample.albedo[i]);
+            self.normal[i] += small_units::<SMALL_BITS>(sample.normal[i]);
         }
         self.photon_density.add(sample.photon_density);
         self.depth = nearer(self.depth, sample.depth);

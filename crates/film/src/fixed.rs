@@ -14,7 +14,11 @@ impl Fixed96 {
     /// Adds `value`; a caller keeps its magnitude at or below [`MAX_VALUE`].
     #[inline]
     pub(crate) fn add(&mut self, value: f32) {
-        self.add_units(units(value, FRACTION_BITS));
+        if value.abs() < SMALL_VALUE {
+            self.add_small(small_units::<FRACTION_BITS>(value));
+        } else {
+            self.add_units(units(value, FRACTION_BITS));
+        }
     }
 
     /// Adds another sum.
@@ -26,13 +30,26 @@ impl Fixed96 {
     /// The sum, rounded to f64.
     #[inline]
     pub(crate) fn to_f64(self) -> f64 {
-        self.get() as f64 * (0.5f64).powi(FRACTION_BITS)
+        const UNIT: f64 = 1.0 / (1u64 << FRACTION_BITS) as f64;
+        let low = self.low() as i64;
+        if i64::from(self.0[2] as i32) == low >> 63 { low as f64 * UNIT } else { self.get() as f64 * UNIT }
+    }
+
+    #[inline]
+    fn low(self) -> u64 {
+        u64::from(self.0[1]) << 32 | u64::from(self.0[0])
     }
 
     #[inline]
     fn get(self) -> i128 {
-        let [low, middle, high] = self.0;
-        (i128::from(high as i32) << 64) | i128::from((u64::from(middle) << 32) | u64::from(low))
+        (i128::from(self.0[2] as i32) << 64) | i128::from(self.low())
+    }
+
+    #[inline]
+    fn add_small(&mut self, units: i64) {
+        let (low, carry) = self.low().overflowing_add(units as u64);
+        let high = self.0[2].wrapping_add((units >> 63) as u32).wrapping_add(u32::from(carry));
+        self.0 = [low as u32, (low >> 32) as u32, high];
     }
 
     #[inline]
@@ -40,6 +57,17 @@ impl Fixed96 {
         let sum = self.get() + units;
         self.0 = [sum as u32, (sum >> 32) as u32, (sum >> 64) as u32];
     }
+}
+
+/// Below this magnitude the units of a value fit 64 bits.
+const SMALL_VALUE: f32 = (1u64 << (62 - FRACTION_BITS)) as f32;
+
+/// [`units`] of a value whose units are fewer than 2⁶³ in magnitude. Scaling an f32 by a power of two is exact in f64,
+/// and so is adding a half below 2⁵²; above, the scaled value is an even integer and the half is lost.
+#[inline]
+pub(crate) fn small_units<const FRACTION_BITS: i32>(value: f32) -> i64 {
+    let scaled = f64::from(value) * (1u64 << FRACTION_BITS) as f64;
+    (scaled + 0.5f64.copysign(scaled)) as i64
 }
 
 /// `value` in units of 2^-`fraction_bits`, rounded to nearest, ties away from 0; from the bits of the float, so that
@@ -68,9 +96,30 @@ mod tests {
 
     #[test]
     fn units_are_rounded_to_nearest() {
+        let mut total = Fixed96::default();
         for v in [0.0f32, 1.0, -1.0, 0.1, 1e-12, 4.6e-13, -4.5e-13, 1e-20, 3.7e9, -8e9, 1e-40, 12345.678] {
             let expected = (f64::from(v) * 2f64.powi(40)).round();
             assert_eq!(units(v, 40) as f64, expected, "{v}");
+            if v.abs() < SMALL_VALUE {
+                assert_eq!(i128::from(small_units::<40>(v)), units(v, 40), "{v}");
+            }
+        }
+        let mut h = 1u32;
+        for _ in 0..100_000 {
+            h = h.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            let v = f32::from_bits(h);
+            if v.abs() < SMALL_VALUE {
+                assert_eq!(i128::from(small_units::<40>(v)), units(v, 40), "{v}");
+                let (mut fast, mut slow) = (Fixed96([h, !h, h >> 9]), Fixed96([h, !h, h >> 9]));
+                fast.add(v);
+                slow.add_units(units(v, 40));
+                assert_eq!(fast, slow);
+                assert_eq!(fast.to_f64(), slow.get() as f64 / 2f64.powi(40));
+            }
+        }
+        for (v, sum) in [(-1.0, -1.0), (3.0, 2.0), (-2.5, -0.5), (0.5, 0.0)] {
+            total.add(v);
+            assert_eq!(total.to_f64(), sum);
         }
         assert_eq!(units(0.5, 0), 1);
         assert_eq!(units(0.25, 0), 0);
