@@ -129,18 +129,22 @@ impl Targets {
     }
 }
 
-/// Slab test with t ≥ 0 (Kay & Kajiya 1986); a NaN of 0·∞ leaves its slab out.
+/// Slab test with t ≥ 0 (Kay & Kajiya 1986). A ray within a face gives 0·∞ = NaN and counts as inside that slab.
 fn hits_box(b: &Bounds3, x: Vec3, inverse: Vec3) -> bool {
     let (mut near, mut far) = (0.0f32, f32::INFINITY);
     for axis in 0..3 {
         let t0 = (b.min[axis] - x[axis]) * inverse[axis];
         let t1 = (b.max[axis] - x[axis]) * inverse[axis];
+        if t0.is_nan() || t1.is_nan() {
+            continue;
+        }
         near = near.max(t0.min(t1));
         far = far.min(t0.max(t1));
     }
     near <= far * (1.0 + 4.0 * f32::EPSILON)
 }
 
+/// At most [`MAX_TARGETS`] targets that together hold all.
 fn merged(targets: Vec<Target>) -> Vec<Target> {
     let mut groups = vec![targets];
     while groups.len() < MAX_TARGETS {
@@ -166,4 +170,21 @@ fn merged(targets: Vec<Target>) -> Vec<Target> {
         groups.push(upper);
     }
     groups.iter().map(|g| Target::around(g)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn boxes_are_hit_from_faces_edges_and_inside() {
+        let b = Bounds3 { min: Vec3::ZERO, max: Vec3::ONE };
+        let hits = |x: Vec3, w: Vec3| hits_box(&b, x, w.recip());
+        let mid = Vec3::splat(0.5);
+        assert!(hits(mid, Vec3::X) && hits(mid, -Vec3::ONE.normalize()));
+        assert!(hits(Vec3::new(0.5, 3.0, 0.5), -Vec3::Y) && !hits(Vec3::new(0.5, 3.0, 0.5), Vec3::Y));
+        assert!(hits(Vec3::new(0.0, 3.0, 0.5), -Vec3::Y) && hits(Vec3::new(1.0, 3.0, 1.0), -Vec3::Y));
+        assert!(!hits(Vec3::new(1.1, 3.0, 0.5), -Vec3::Y) && !hits(Vec3::new(-0.1, 3.0, 0.5), -Vec3::Y));
+        assert!(hits(Vec3::new(-1.0, -1.0, 0.5), Vec3::new(1.0, 1.0, -0.0).normalize()));
+    }
 }

@@ -34,6 +34,16 @@ impl DiskLight {
         &self.surface
     }
 
+    /// Centre.
+    pub fn center(&self) -> Vec3 {
+        self.center
+    }
+
+    /// Unit normal of the front.
+    pub fn normal(&self) -> Vec3 {
+        self.frame.z
+    }
+
     /// Area of one side.
     pub fn area(&self) -> f32 {
         PI * self.radius * self.radius

@@ -231,6 +231,22 @@ impl Light {
         }
     }
 
+    /// Whether light may fly straight to some target's sphere; `false` only where none can.
+    pub fn may_reach(&self, targets: &Targets) -> bool {
+        let any = |emission: Emission<'_>, x: Vec3| {
+            targets.as_slice().iter().any(|t| emission.may_reach(t.center - x, t.radius))
+        };
+        match self {
+            Self::Spot(l) => any(Emission::Spot(l), l.position()),
+            // A flat light sees the same height of a target from all its points.
+            Self::Disk(l) => any(Emission::Lambert(l.surface(), l.normal()), l.center()),
+            Self::Triangles(l) => l.faces().any(|(x, ng)| any(Emission::Lambert(l.surface(), ng), x)),
+            Self::Point(_) | Self::Directional(_) | Self::Environment(_) | Self::Sphere(_) => {
+                !targets.is_empty()
+            }
+        }
+    }
+
     /// Whether only [`Self::sample_li`] can find it: no ray hits it.
     pub fn is_delta(&self) -> bool {
         matches!(self, Self::Point(_) | Self::Spot(_) | Self::Directional(_))
@@ -253,8 +269,8 @@ impl Light {
         }
     }
 
-    /// Tells lights at infinity how far the scene reaches; must be called before they are asked for `le` samples
-    /// or power.
+    /// Tells lights at infinity how far the scene reaches; must be called before they are asked for samples or
+    /// power.
     pub fn preprocess(&mut self, scene_bounds: Bounds3) {
         match self {
             Self::Directional(l) => l.preprocess(scene_bounds),

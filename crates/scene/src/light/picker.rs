@@ -24,13 +24,13 @@ impl LightPicker {
     }
 
     /// For caustic photons: ½ by the power that [`Light::sample_le_toward`] sends to the targets' boxes (estimated
-    /// from a fixed low-discrepancy set), ½ uniform over the lights that send any: however dim, a light keeps at
-    /// least 1/(2·lights) of the photons.
+    /// from a fixed low-discrepancy set), ½ uniform over the lights that may reach a target
+    /// ([`Light::may_reach`]): however dim, each of them has at least 1/(2·lights) of the photons.
     pub fn caustics(lights: &[Light], targets: &Targets) -> Self {
-        let sent: Vec<f64> = lights.iter().map(|light| power_toward(light, targets)).collect();
-        // A light that the estimate missed altogether keeps its share as long as it shines at all.
-        let seen: Vec<bool> = powers(lights).iter().map(|&p| p > 0.0).collect();
-        Self::mixed(&sent, &seen)
+        let lit: Vec<bool> = lights.iter().map(|l| !l.power().is_zero() && l.may_reach(targets)).collect();
+        let estimate = |(l, &lit): (&Light, &bool)| if lit { power_toward(l, targets) } else { 0.0 };
+        let sent: Vec<f64> = lights.iter().zip(&lit).map(estimate).collect();
+        Self::mixed(&sent, &lit)
     }
 
     fn with_floor(weights: &[f64]) -> Self {
@@ -41,6 +41,7 @@ impl LightPicker {
     fn mixed(weights: &[f64], lit: &[bool]) -> Self {
         let total: f64 = weights.iter().sum();
         let count = lit.iter().filter(|&&l| l).count() as f64;
+        // Where no light is of use all weights are 0, and `Discrete` draws them alike.
         let share = |(&w, &lit): (&f64, &bool)| {
             let by_weight = if total > 0.0 { w / total } else { 0.0 };
             if lit { by_weight + 1.0 / count } else { 0.0 }

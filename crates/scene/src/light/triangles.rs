@@ -50,6 +50,11 @@ impl TriangleLight {
         self.bounds
     }
 
+    /// A vertex and the unit normal of the front of each triangle that has any area.
+    pub(super) fn faces(&self) -> impl Iterator<Item = (Vec3, Vec3)> {
+        self.triangles.iter().filter_map(|t| Some((t[0], cross(t).try_normalize()?.as_vec3())))
+    }
+
     pub(super) fn origin(&self, u_pick: f32, u: [f32; 2]) -> Origin {
         let (index, _, _) = self.picks.sample(u_pick);
         let t = &self.triangles[index];

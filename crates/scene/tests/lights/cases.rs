@@ -1,0 +1,171 @@
+//! Lights to test, and a view of their geometry apart from the crate.
+
+// Cases are fixed: one that fails to build is a failing test.
+#![allow(clippy::unwrap_used)]
+
+use color::Lanes;
+use math::{Bounds3, DVec3, Vec3};
+use nephroid_scene::light::{
+    DirectionalLight, DiskLight, EnvironmentLight, LeSample, Light, LightHit, PointLight, Sides, SphereLight,
+    SpotLight, TriangleLight,
+};
+use nephroid_scene::target::{Target, Targets};
+use sampling::{Domain, Sampler};
+use testkit::significance;
+
+/// Level of one of the file's tests, of which there are fewer than 200.
+pub fn level() -> f64 {
+    significance(0.01, 200)
+}
+
+/// What a ray finds of a light, computed apart from the crate.
+pub enum Geometry {
+    Nothing,
+    Sphere(DVec3, f64),
+    Disk(DVec3, DVec3, f64),
+    Triangles(Vec<[Vec3; 3]>),
+}
+
+pub struct Case {
+    pub name: &'static str,
+    pub light: Light,
+    pub geometry: Geometry,
+}
+
+impl Case {
+    /// Geometric normal of the front at the start of a path. Two-sided lights are disks here.
+    pub fn front_normal(&self, l: &LeSample) -> Vec3 {
+        match self.geometry {
+            Geometry::Disk(_, n, _) => n.as_vec3(),
+            _ => l.n,
+        }
+    }
+}
+
+impl Geometry {
+    pub fn hit(&self, p: Vec3, w: Vec3) -> Option<LightHit> {
+        let (o, d) = (p.as_dvec3(), w.as_dvec3());
+        let hit = |t: f64, ng: DVec3, prim: usize| LightHit {
+            p: (o + d * t).as_vec3(),
+            ng: ng.as_vec3(),
+            prim: prim as u32,
+        };
+        match self {
+            Self::Nothing => None,
+            Self::Sphere(c, r) => {
+                let (b, gap) = (d.dot(o - c), (o - c).length_squared() - r * r);
+                let root = (b * b - d.length_squared() * gap).max(-1.0);
+                let t = [-b - root.sqrt(), -b + root.sqrt()].map(|t| t / d.length_squared());
+                let t = t.into_iter().find(|t| *t > 1e-6)?;
+                Some(hit(t, (o + d * t - c).normalize(), 0))
+            }
+            Self::Disk(c, n, r) => {
+                let t = (c - o).dot(*n) / d.dot(*n);
+                (t > 0.0 && (o + d * t).distance(*c) < *r).then(|| hit(t, *n, 0))
+            }
+            Self::Triangles(triangles) => triangles.iter().enumerate().find_map(|(i, t)| {
+                let v = t.map(|v| v.as_dvec3());
+                let n = (v[1] - v[0]).cross(v[2] - v[0]);
+                let t = (v[0] - o).dot(n) / d.dot(n);
+                let q = o + d * t;
+                let side = |a: DVec3, b: DVec3| (b - a).cross(q - a).dot(n) > 0.0;
+                let inside = t > 0.0 && side(v[0], v[1]) && side(v[1], v[2]) && side(v[2], v[0]);
+                inside.then(|| hit(t, n.normalize(), i))
+            }),
+        }
+    }
+}
+
+pub fn scene_bounds() -> Bounds3 {
+    Bounds3 { min: Vec3::splat(-2.0), max: Vec3::splat(2.0) }
+}
+
+pub fn lanes(x: f32) -> Lanes {
+    Lanes::rgb(x, 0.5 * x, 2.0 * x)
+}
+
+pub fn sphere(center: Vec3, radius: f32, sides: Sides) -> Case {
+    let light = Light::Sphere(SphereLight::new(center, radius, lanes(2.0), sides).unwrap());
+    Case { name: "sphere", light, geometry: Geometry::Sphere(center.as_dvec3(), f64::from(radius)) }
+}
+
+pub fn disk(sides: Sides) -> Case {
+    let (c, n, r) = (Vec3::new(-0.2, 1.5, 0.1), Vec3::new(0.36, -0.8, 0.48), 0.5);
+    let light = Light::Disk(DiskLight::new(c, n, r, lanes(1.5), sides).unwrap());
+    Case { name: "disk", light, geometry: Geometry::Disk(c.as_dvec3(), n.as_dvec3(), f64::from(r)) }
+}
+
+pub fn mesh() -> Case {
+    // Three unequal triangles whose shadows on any receiver below do not overlap.
+    let v = |x, y, z| Vec3::new(x, y, z);
+    let triangles = vec![
+        [v(-0.8, 1.5, -0.5), v(0.4, 1.5, -0.5), v(-0.8, 1.4, 0.9)],
+        [v(0.5, 1.6, -0.5), v(1.1, 1.7, -0.5), v(0.8, 1.6, 0.2)],
+        [v(0.3, 1.5, 0.6), v(0.6, 1.5, 0.6), v(0.3, 1.5, 0.9)],
+    ];
+    let light = TriangleLight::new(triangles.clone(), lanes(3.0), Sides::Front).unwrap();
+    Case { name: "mesh", light: Light::Triangles(light), geometry: Geometry::Triangles(triangles) }
+}
+
+pub fn quad() -> Case {
+    let (o, u, w) = (Vec3::new(-0.4, 1.7, -0.6), Vec3::new(0.9, 0.1, 0.0), Vec3::new(0.2, 0.0, 0.8));
+    let light = TriangleLight::quad(o, u, w, lanes(1.0), Sides::Front).unwrap();
+    let triangles = vec![[o, o + u, o + u + w], [o, o + u + w, o + w]];
+    Case { name: "quad", light: Light::Triangles(light), geometry: Geometry::Triangles(triangles) }
+}
+
+pub fn spot(inner: f32, outer: f32) -> Case {
+    let axis = Vec3::new(0.5, -1.5, 0.2);
+    let light = SpotLight::new(Vec3::new(0.1, 1.7, 0.2), axis, lanes(4.0), inner, outer).unwrap();
+    Case { name: "spot", light: Light::Spot(light), geometry: Geometry::Nothing }
+}
+
+/// One of each, above the targets.
+pub fn cases() -> Vec<Case> {
+    let nothing = |name, light| Case { name, light, geometry: Geometry::Nothing };
+    let mut cases = vec![
+        nothing("point", Light::Point(PointLight::new(Vec3::new(0.3, 1.4, -0.2), lanes(2.0)).unwrap())),
+        spot(0.35, 0.8),
+        nothing(
+            "directional",
+            Light::Directional(DirectionalLight::new(Vec3::new(0.3, -1.0, 0.2), lanes(3.0)).unwrap()),
+        ),
+        nothing("environment", Light::Environment(EnvironmentLight::new(lanes(0.7)).unwrap())),
+        sphere(Vec3::new(0.0, 1.4, 0.0), 0.4, Sides::Front),
+        disk(Sides::Front),
+        disk(Sides::Both),
+        quad(),
+        mesh(),
+    ];
+    cases.iter_mut().for_each(|c| c.light.preprocess(scene_bounds()));
+    cases
+}
+
+/// Two overlapping spheres and a flat box.
+pub fn targets() -> Targets {
+    let ball = |c: Vec3, r: f32, weight| Target {
+        bounds: Bounds3 { min: c - Vec3::splat(r), max: c + Vec3::splat(r) },
+        center: c,
+        radius: r,
+        weight,
+    };
+    let slab = Bounds3 { min: Vec3::new(-1.9, -1.9, -1.5), max: Vec3::new(-0.9, -1.9, 0.5) };
+    Targets::new(vec![
+        ball(Vec3::new(0.6, -0.7, 0.3), 1.1, 1.0),
+        ball(Vec3::new(-0.4, -1.0, 0.9), 0.8, 0.3),
+        Target::from_bounds(slab, 0.05),
+    ])
+}
+
+pub fn samples(key: u64, n: u64) -> impl Iterator<Item = Sampler> {
+    (0..n).map(move |i| Sampler::new(11, key, Domain::Other, i))
+}
+
+pub fn flux(s: &LeSample) -> f64 {
+    f64::from(s.radiance.0.x * s.cos) / (f64::from(s.pdf_a) * f64::from(s.pdf_w))
+}
+
+#[track_caller]
+pub fn assert_close(a: f64, b: f64, relative: f64) {
+    assert!((a - b).abs() <= relative * b.abs(), "{a} {b}");
+}
