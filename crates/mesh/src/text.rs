@@ -93,6 +93,12 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(ProptestConfig {
+            rng_seed: proptest::test_runner::RngSeed::Fixed(7),
+            failure_persistence: None,
+            ..ProptestConfig::default()
+        })]
+
         #[test]
         fn floats_are_rounded_as_the_standard_library_does(digits in 0u64..100_000_000, decimals in 0usize..12) {
             let digits = format!("{digits:0width$}", width = decimals + 1);

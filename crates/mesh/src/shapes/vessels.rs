@@ -34,7 +34,7 @@ pub fn ring(segments: u32) -> TriangleMesh {
 
 /// A coffee cup of solid china, 86.75 mm high: outer radius 43.5 mm, the inside a cylinder of radius 40 mm from
 /// y = 16 mm to 85 mm over a round fillet and a flat floor at 6 mm. The handle, towards +x, is a closed shell of the same
-/// mesh whose ends lie within the wall. Both shells are closed and oriented outward.
+/// mesh whose ends lie within the wall (given 16 segments or more). Both shells are closed and oriented outward.
 pub fn coffee_cup(segments: u32) -> TriangleMesh {
     let outline = Pen::at(0.0, 0.003)
         .line(0.030, 0.003)
@@ -168,6 +168,24 @@ mod tests {
         // A filled glass of this size holds about 150 ml below its widest place.
         assert!((0.000_13..0.000_17).contains(&wine(96).signed_volume()), "{}", wine(96).signed_volume());
         assert_eq!(wine_glass(8).bounds().min.y, 0.0);
+    }
+
+    #[test]
+    fn the_handle_ends_within_the_wall() {
+        let cup = coffee_cup(64);
+        // The caps' vertices; the wall has none with these normals and this x.
+        let caps: Vec<_> = (0..cup.positions.len())
+            .filter(|&i| {
+                cup.normals[i].distance(math::Vec3::NEG_X) < 1e-6
+                    && (cup.positions[i].x - 0.0418).abs() < 1e-6
+            })
+            .map(|i| cup.positions[i])
+            .collect();
+        assert_eq!(caps.len(), 2 * (24 + 25));
+        for p in caps {
+            let radius = p.x.hypot(p.z);
+            assert!((0.0405..0.0430).contains(&radius) && (0.022..0.085).contains(&p.y), "{p}");
+        }
     }
 
     #[test]
