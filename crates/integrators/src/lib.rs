@@ -1,1 +1,45 @@
-//! One paper per file.
+//! Light transport algorithms, one paper a file. An integrator turns (scene, settings, pass index) into one film
+//! contribution, a pure function; no clocks, locks, atomics or printing.
+
+mod eye;
+mod path;
+mod photon_map;
+mod pixels;
+mod settings;
+
+use film::{FilmError, PassFilm};
+use scene::Scene;
+
+pub use path::Path;
+pub use photon_map::{MapReport, Maps, PhotonMapper, TracedPhotons};
+pub use settings::{IntegratorKind, PhotonMapSettings, Settings};
+
+/// What sessions run. Object-safe: sessions meet it once a pass.
+pub trait Integrator: Send + Sync {
+    /// As in scene files.
+    fn name(&self) -> &'static str;
+
+    /// Index of the photon maps that a pass looks up; `None`: it needs none. Equal indices mean equal maps, so a
+    /// session may keep them from pass to pass.
+    fn map_index(&self, pass: u64) -> Option<u64>;
+
+    /// First step towards the maps of an index: traces the photons.
+    fn trace_photons(&self, scene: &Scene, map_index: u64) -> TracedPhotons;
+
+    /// Second step: builds the maps.
+    fn build_maps(&self, scene: &Scene, photons: TracedPhotons) -> Maps;
+
+    /// One pass: one camera sample a pixel. `maps`: those of `map_index(pass)`.
+    ///
+    /// # Errors
+    /// As [`PassFilm::new`]: where the film is too large to be addressed.
+    fn render(&self, scene: &Scene, maps: Option<&Maps>, pass: u64) -> Result<PassFilm, FilmError>;
+}
+
+/// The integrator that the settings name.
+pub fn integrator(settings: &Settings) -> Box<dyn Integrator> {
+    match settings.kind {
+        IntegratorKind::Path => Box::new(Path::new(settings.clone())),
+        IntegratorKind::PhotonMap => Box::new(PhotonMapper::new(settings.clone())),
+    }
+}

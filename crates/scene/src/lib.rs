@@ -1,1 +1,23 @@
-//! The compiled scene.
+//! The compiled scene: immutable, `Send + Sync`, addressed by ids. World space throughout.
+
+pub mod camera;
+mod compile;
+mod interaction;
+pub mod light;
+mod material;
+mod medium;
+mod scene;
+mod shape;
+pub mod target;
+pub mod texture;
+
+pub use camera::Camera;
+pub use compile::compile;
+pub use interaction::{LightId, SurfaceInteraction};
+pub use light::Light;
+pub use material::{ColorSource, FloatSource, Material, MaterialId, MaterialKind};
+pub use medium::{Boundary, Medium, MediumStack};
+pub use scene::{Scene, Summary};
+pub use shape::{Object, Shape};
+pub use target::{Target, Targets};
+pub use texture::Texture;

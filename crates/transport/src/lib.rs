@@ -1,1 +1,16 @@
-//! The verbs of light transport.
+//! The verbs of light transport: [`Walk`], [`direct`], [`emit`] and [`merge`]. Integrators are thin loops over
+//! them. No threads, no files, no clocks.
+
+mod direct;
+mod emit;
+mod merge;
+mod path_class;
+mod photon;
+mod walk;
+
+pub use direct::{Emission, direct, direct_with, emission_at, emission_escaped, power_heuristic};
+pub use emit::{EmittedPhoton, emit, emit_toward_targets};
+pub use merge::{Lookup, Merged, irradiance, merge, nearest_irradiance};
+pub use path_class::{LightLayer, PathClass};
+pub use photon::{PhotonBalance, PhotonBatch, PhotonJob, PhotonPaths, trace_photons};
+pub use walk::{Scattered, Vertex, Walk};

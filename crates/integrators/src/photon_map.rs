@@ -1,0 +1,236 @@
+//! Two-pass photon mapping (Jensen 1996; Jensen 2001, ch. 5–7): the maps. The eye pass is in `eye`.
+
+use film::{FilmError, PassFilm};
+use photons::{Kernel, Photon, PhotonMap, Query, Scratch};
+use scene::Scene;
+use transport::{Lookup, PhotonBalance, PhotonJob, PhotonPaths, irradiance, trace_photons};
+
+use crate::eye::Eye;
+use crate::pixels::render_pixels;
+use crate::{Integrator, PhotonMapSettings, Settings};
+
+/// Photon paths of one task; fixed, so that sums have one shape on any number of threads.
+const CHUNK: usize = 4096;
+/// Every so many photons of the global map, irradiance is worked out in advance (Christensen 1999).
+const IRRADIANCE_STRIDE: usize = 4;
+/// Photons at which the typical lookup radius of a map is measured.
+const PROBES: usize = 256;
+
+/// Two-pass photon mapping. Passes share the maps of index 0; each adds camera and gather samples over them.
+#[derive(Clone, Debug)]
+pub struct PhotonMapper {
+    settings: Settings,
+}
+
+/// Photons before their maps are built.
+#[derive(Clone, Debug, Default)]
+pub struct TracedPhotons {
+    global: Vec<Photon>,
+    caustic: Vec<Photon>,
+    /// Energy balance of the global photons, in W.
+    pub global_balance: PhotonBalance,
+    /// Energy balance of the caustic photons, in W.
+    pub caustic_balance: PhotonBalance,
+    /// Photons that became non-finite and were dropped: index of the path and scattering events before.
+    pub nonfinite: Vec<(u64, u32)>,
+}
+
+/// What the eye pass looks up.
+#[derive(Clone, Debug, Default)]
+pub struct Maps {
+    pub(crate) global: Option<StoredMap>,
+    pub(crate) caustic: Option<StoredMap>,
+    /// Irradiance at some of the global photons, for gather rays that end on Lambertian surfaces.
+    pub(crate) irradiance: Option<PhotonMap>,
+}
+
+/// A map and the radii that fit it.
+#[derive(Clone, Debug)]
+pub(crate) struct StoredMap {
+    pub map: PhotonMap,
+    /// Median distance to the k-th neighbour among probes.
+    pub typical_radius: f32,
+    /// Greatest radius of lookups; `None`: by footprint.
+    pub max_radius: Option<f32>,
+}
+
+/// What a map holds, for reports.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapReport {
+    /// "global" or "caustic".
+    pub name: &'static str,
+    /// Photons stored.
+    pub photons: usize,
+    /// Bytes, index included.
+    pub bytes: usize,
+    /// Median radius of lookups at the photons themselves, in scene units.
+    pub typical_radius: f32,
+}
+
+impl Maps {
+    /// One report a map.
+    pub fn reports(&self) -> Vec<MapReport> {
+        let report = |name, stored: &Option<StoredMap>| {
+            stored.as_ref().map(|s| MapReport {
+                name,
+                photons: s.map.len(),
+                bytes: s.map.memory_bytes(),
+                typical_radius: s.typical_radius,
+            })
+        };
+        [report("global", &self.global), report("caustic", &self.caustic)].into_iter().flatten().collect()
+    }
+}
+
+impl PhotonMapper {
+    /// A photon mapper of these settings.
+    pub fn new(settings: Settings) -> Self {
+        Self { settings }
+    }
+
+    fn trace(&self, scene: &Scene, paths: PhotonPaths, count: u64, max_depth: u32, map_index: u64) -> Traced {
+        let job = PhotonJob { paths, count, seed: self.settings.seed, map_index, max_depth };
+        let batches = par::map_chunks(count as usize, CHUNK, |range| {
+            trace_photons(scene, &job, range.start as u64..range.end as u64)
+        });
+        let mut out = Traced::default();
+        out.photons.reserve_exact(batches.iter().map(|b| b.photons.len()).sum());
+        for batch in batches {
+            out.photons.extend_from_slice(&batch.photons);
+            out.balance = out.balance.plus(&batch.balance);
+            out.nonfinite.extend(batch.nonfinite);
+        }
+        out
+    }
+}
+
+#[derive(Default)]
+struct Traced {
+    photons: Vec<Photon>,
+    balance: PhotonBalance,
+    nonfinite: Vec<(u64, u32)>,
+}
+
+impl Integrator for PhotonMapper {
+    fn name(&self) -> &'static str {
+        "photon_map"
+    }
+
+    fn map_index(&self, _pass: u64) -> Option<u64> {
+        Some(0)
+    }
+
+    fn trace_photons(&self, scene: &Scene, map_index: u64) -> TracedPhotons {
+        let s = &self.settings.photon_map;
+        let limit = self.settings.max_depth;
+        // A photon that gather rays see is scattered twice more: where it lies, and where it is gathered.
+        let (paths, global_depth) = match s.final_gather {
+            0 => (PhotonPaths::Indirect, limit),
+            _ => (PhotonPaths::Global, limit.saturating_sub(if limit == u32::MAX { 0 } else { 1 })),
+        };
+        let global = match limit {
+            0 | 1 => Traced::default(),
+            _ => self.trace(scene, paths, s.photons, global_depth, map_index),
+        };
+        let caustic = if limit < 2 || scene.targets().is_empty() {
+            Traced::default()
+        } else {
+            self.trace(scene, PhotonPaths::Caustic, s.caustic_photons, limit, map_index)
+        };
+        let mut nonfinite = global.nonfinite;
+        nonfinite.extend(caustic.nonfinite);
+        TracedPhotons {
+            global: global.photons,
+            caustic: caustic.photons,
+            global_balance: global.balance,
+            caustic_balance: caustic.balance,
+            nonfinite,
+        }
+    }
+
+    fn build_maps(&self, scene: &Scene, photons: TracedPhotons) -> Maps {
+        let s = &self.settings.photon_map;
+        let reach = scene.bounds().size().length();
+        let TracedPhotons { global, caustic, .. } = photons;
+        let global = store(global, s.knn, reach, |typical| Some(s.radius.unwrap_or(4.0 * typical)));
+        let caustic = store(caustic, s.caustic_knn, reach, |_| s.caustic_radius);
+        let irradiance = global
+            .as_ref()
+            .filter(|_| s.final_gather > 0)
+            .map(|g| irradiance_samples(g, &global_lookup(s, g)));
+        Maps { global, caustic, irradiance }
+    }
+
+    fn render(&self, scene: &Scene, maps: Option<&Maps>, pass: u64) -> Result<PassFilm, FilmError> {
+        let none = Maps::default();
+        let eye = Eye {
+            scene,
+            settings: &self.settings.photon_map,
+            max_depth: self.settings.max_depth,
+            maps: maps.unwrap_or(&none),
+        };
+        render_pixels(scene, &self.settings, pass, |path, sample| eye.trace(path, sample))
+    }
+}
+
+/// How the global map is looked up.
+pub(crate) fn global_lookup(s: &PhotonMapSettings, stored: &StoredMap) -> Lookup {
+    let max_radius = stored.max_radius.unwrap_or(4.0 * stored.typical_radius);
+    Lookup { knn: s.knn as usize, max_radius, kernel: s.kernel }
+}
+
+fn store(
+    photons: Vec<Photon>,
+    knn: u32,
+    reach: f32,
+    max_radius: impl Fn(f32) -> Option<f32>,
+) -> Option<StoredMap> {
+    if photons.is_empty() {
+        return None;
+    }
+    let map = PhotonMap::build(photons);
+    let typical_radius = typical_radius(&map, knn as usize, reach);
+    Some(StoredMap { max_radius: max_radius(typical_radius), map, typical_radius })
+}
+
+/// Median over probes, spread evenly over the tree, of the distance to the k-th neighbour.
+fn typical_radius(map: &PhotonMap, knn: usize, reach: f32) -> f32 {
+    let mut scratch = Scratch::new();
+    let step = (map.len() / PROBES).max(1);
+    let mut radii: Vec<f32> = (0..map.len())
+        .step_by(step)
+        .map(|slot| {
+            let p = map.photon(slot as u32);
+            let query =
+                Query { position: p.position, normal: p.normal, radius: reach, kernel: Kernel::Constant };
+            map.gather_knn(&query, knn, &mut scratch, |_, _| ()).radius
+        })
+        .collect();
+    radii.sort_by(f32::total_cmp);
+    radii.get(radii.len() / 2).copied().unwrap_or(reach)
+}
+
+/// Irradiance at every few photons of the global map (Christensen 1999): a gather ray then needs one neighbour
+/// instead of k.
+fn irradiance_samples(stored: &StoredMap, lookup: &Lookup) -> PhotonMap {
+    let map = &stored.map;
+    let count = map.len().div_ceil(IRRADIANCE_STRIDE);
+    let chunks = par::map_chunks(count, 1024, |range| {
+        let mut scratch = Scratch::new();
+        range
+            .map(|i| {
+                let mut sample = map.photon((i * IRRADIANCE_STRIDE) as u32);
+                let query = Query {
+                    position: sample.position,
+                    normal: sample.normal,
+                    radius: lookup.max_radius,
+                    kernel: lookup.kernel,
+                };
+                sample.power = irradiance(map, &query, lookup.knn, &mut scratch).0;
+                sample.direction = sample.normal;
+                sample
+            })
+            .collect::<Vec<_>>()
+    });
+    PhotonMap::build(chunks.concat())
+}

@@ -1,0 +1,84 @@
+//! From pixels to camera walks: what all integrators share.
+
+use bsdf::TransportMode;
+use color::Lanes;
+use film::{FilmError, PassFilm, PixelSample, Tiles};
+use math::Vec2;
+use sampling::{Domain, Sampler};
+use scene::Scene;
+use transport::{LightLayer, Vertex, Walk};
+
+use crate::Settings;
+
+/// Side of the squares that are handed to threads, in pixels. Part of no result: pixels share nothing.
+const TILE: usize = 16;
+
+/// A camera path about to start.
+pub(crate) struct CameraPath<'s> {
+    pub walk: Walk<'s>,
+    pub sampler: Sampler,
+}
+
+/// One pass: `f` over all pixels.
+pub(crate) fn render_pixels<'s>(
+    scene: &'s Scene,
+    settings: &Settings,
+    pass: u64,
+    f: impl Fn(CameraPath<'s>, &mut PixelSample) + Sync,
+) -> Result<PassFilm, FilmError> {
+    let [width, height] = scene.resolution().map(|n| n as usize);
+    let tiles = Tiles::new(width, height, TILE);
+    let samples = par::map(tiles.len(), |i| {
+        let (xs, ys) = tiles.pixels(i);
+        let mut out = Vec::with_capacity(xs.len() * ys.len());
+        for y in ys {
+            for x in xs.clone() {
+                let mut sample = PixelSample::default();
+                let path = start(scene, settings, pass, [x, y], width, &mut sample);
+                f(path, &mut sample);
+                out.push(sample);
+            }
+        }
+        out
+    });
+    PassFilm::from_tiles(&tiles, &samples)
+}
+
+fn start<'s>(
+    scene: &'s Scene,
+    settings: &Settings,
+    pass: u64,
+    [x, y]: [usize; 2],
+    width: usize,
+    sample: &mut PixelSample,
+) -> CameraPath<'s> {
+    let mut sampler = Sampler::new(settings.seed, pass, Domain::Camera, (y * width + x) as u64);
+    let filter = settings.filter.sample(sampler.next_2d());
+    let film_position = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) + filter.offset;
+    let camera = scene.camera().sample_we(film_position, sampler.next_2d());
+    sample.weight = filter.weight * camera.weight;
+    let walk = Walk::new(scene, TransportMode::Radiance, camera.ray, Lanes::ONE, scene.camera_medium())
+        .with_footprint(camera.width, camera.spread);
+    CameraPath { walk, sampler }
+}
+
+/// Adds radiance to a layer of a sample.
+pub(crate) fn add(sample: &mut PixelSample, layer: LightLayer, radiance: Lanes) {
+    let target = match layer {
+        LightLayer::Direct => &mut sample.direct,
+        LightLayer::Caustic => &mut sample.caustic,
+        LightLayer::Indirect => &mut sample.indirect,
+    };
+    for (t, r) in target.iter_mut().zip(radiance.to_rgb()) {
+        *t += r;
+    }
+}
+
+/// Writes what the first surface of a path is like.
+pub(crate) fn add_features(sample: &mut PixelSample, vertex: &Vertex) {
+    let ns = vertex.bsdf.ns();
+    let facing = if ns.dot(vertex.wo) < 0.0 { -ns } else { ns };
+    sample.albedo = vertex.bsdf.albedo(vertex.wo).to_rgb();
+    sample.normal = facing.to_array();
+    sample.depth = vertex.hit.t;
+}

@@ -1,0 +1,85 @@
+use color::Lanes;
+use math::{PI, Vec3};
+use scenefile::desc::{Emission, EmissionAmount, LightKind, PointAmount, channel_power};
+
+use super::shapes::Solid;
+use crate::Light;
+use crate::light::{
+    DirectionalLight, DiskLight, EnvironmentLight, PointLight, Sides, SphereLight, SpotLight, TriangleLight,
+};
+
+fn lanes([r, g, b]: [f32; 3]) -> Lanes {
+    Lanes::rgb(r, g, b)
+}
+
+/// The light that a solid is. `None`: it has no area.
+pub(super) fn area_light(solid: &Solid, emission: &Emission) -> Option<Light> {
+    let sides = if emission.two_sided { Sides::Both } else { Sides::Front };
+    let radiance = match emission.amount {
+        EmissionAmount::Radiance(rgb) => lanes(rgb),
+        // A Lambertian emitter of area A sends out π·A·L from each side.
+        EmissionAmount::Power { watts, color } => {
+            let area = solid.area() * if emission.two_sided { 2.0 } else { 1.0 };
+            lanes(channel_power(watts, color)) * (1.0 / (f64::from(PI) * area)) as f32
+        }
+    };
+    if !radiance.is_finite() {
+        return None;
+    }
+    match solid {
+        Solid::Sphere { center, radius, flipped } => {
+            let sides = if *flipped && sides == Sides::Front { Sides::Back } else { sides };
+            SphereLight::new(*center, *radius, radiance, sides).map(Light::Sphere)
+        }
+        Solid::Disk { center, normal, radius } => {
+            DiskLight::new(*center, *normal, *radius, radiance, sides).map(Light::Disk)
+        }
+        Solid::Mesh(mesh) => {
+            let triangles = (0..mesh.indices.len()).map(|i| mesh.corners(i)).collect();
+            TriangleLight::new(triangles, radiance, sides).map(Light::Triangles)
+        }
+    }
+}
+
+/// A light that is no surface, and where it is.
+pub(super) fn light(kind: &LightKind) -> Option<(Light, Option<Vec3>)> {
+    match *kind {
+        LightKind::Point { position, amount } => {
+            let intensity = match amount {
+                PointAmount::Intensity(rgb) => lanes(rgb),
+                PointAmount::Power { watts, color } => lanes(channel_power(watts, color)) / (4.0 * PI),
+            };
+            let p = Vec3::from(position);
+            Some((Light::Point(PointLight::new(p, intensity)?), Some(p)))
+        }
+        LightKind::Spot { position, direction, cone_angle, falloff_angle, amount } => {
+            let (p, axis) = (Vec3::from(position), Vec3::from(direction));
+            let spot = |intensity| SpotLight::new(p, axis, intensity, cone_angle - falloff_angle, cone_angle);
+            let light = match amount {
+                PointAmount::Intensity(rgb) => spot(lanes(rgb))?,
+                PointAmount::Power { watts, color } => {
+                    let unit = spot(Lanes::rgb(1.0, 1.0, 1.0))?.power().mean();
+                    spot(lanes(channel_power(watts, color)) / unit)?
+                }
+            };
+            Some((Light::Spot(light), Some(p)))
+        }
+        LightKind::Directional { direction, irradiance } => {
+            Some((Light::Directional(DirectionalLight::new(Vec3::from(direction), lanes(irradiance))?), None))
+        }
+        LightKind::Environment { radiance } => {
+            Some((Light::Environment(EnvironmentLight::new(lanes(radiance))?), None))
+        }
+    }
+}
+
+/// What to call a light that has no name.
+pub(super) fn kind_name(light: &Light) -> &'static str {
+    match light {
+        Light::Point(_) => "point light",
+        Light::Spot(_) => "spot light",
+        Light::Directional(_) => "directional light",
+        Light::Environment(_) => "environment",
+        Light::Sphere(_) | Light::Disk(_) | Light::Triangles(_) => "lamp",
+    }
+}

@@ -1,0 +1,242 @@
+use std::collections::BTreeMap;
+
+use color::Lanes;
+use math::Vec2;
+use scenefile::desc::{self, ColorDesc, FloatDesc, Ior, MaterialRef, Metal, SceneDesc};
+use scenefile::{Diagnostic, Sourced};
+
+use crate::texture::{Checker, Encoding, Filter, ImageTexture, UvMap, Wrap};
+use crate::{ColorSource, FloatSource, Material, MaterialId, MaterialKind, Texture};
+
+/// Materials and textures as they are asked for.
+pub(super) struct Library<'d> {
+    desc: &'d SceneDesc,
+    materials: Vec<Material>,
+    named: BTreeMap<&'d str, MaterialId>,
+    textures: Vec<Texture>,
+    texture_ids: BTreeMap<(&'d str, bool), Option<u32>>,
+    black: Option<MaterialId>,
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl<'d> Library<'d> {
+    pub fn new(desc: &'d SceneDesc) -> Self {
+        let mut library = Self {
+            desc,
+            materials: Vec::new(),
+            named: BTreeMap::new(),
+            textures: Vec::new(),
+            texture_ids: BTreeMap::new(),
+            black: None,
+            diagnostics: Vec::new(),
+        };
+        // All of them, used or not: a mistake in an unused material is a mistake.
+        for (name, material) in &desc.materials {
+            let id = library.add(&material.value);
+            library.named.insert(name, id);
+        }
+        library
+    }
+
+    /// The id of a material, or of black where it is not known (which is reported).
+    pub fn resolve(&mut self, reference: &'d MaterialRef) -> MaterialId {
+        match reference {
+            MaterialRef::Inline(material) => self.add(material),
+            MaterialRef::Named(name) => match self.named.get(name.as_str()) {
+                Some(&id) => id,
+                None => {
+                    self.diagnostics.push(
+                        Diagnostic::error(
+                            "unknown-material",
+                            format!("there is no material `{}`", name.value),
+                        )
+                        .at(name.span),
+                    );
+                    self.black()
+                }
+            },
+        }
+    }
+
+    /// The material of lamps that reflect nothing.
+    pub fn black(&mut self) -> MaterialId {
+        match self.black {
+            Some(id) => id,
+            None => {
+                let id = self.push(Material::new(MaterialKind::Black, None, true));
+                self.black = Some(id);
+                id
+            }
+        }
+    }
+
+    pub fn specular_weight(&self, id: MaterialId) -> f32 {
+        self.materials[id.0 as usize].specular_weight(&self.textures)
+    }
+
+    pub fn finish(self) -> (Vec<Material>, Vec<Texture>) {
+        (self.materials, self.textures)
+    }
+
+    fn push(&mut self, material: Material) -> MaterialId {
+        self.materials.push(material);
+        MaterialId((self.materials.len() - 1) as u32)
+    }
+
+    fn add(&mut self, material: &'d desc::Material) -> MaterialId {
+        let kind = self.kind(&material.kind);
+        let normal_map = material
+            .normal_map
+            .as_ref()
+            .and_then(|name| self.texture(name, true))
+            .map(|id| (id, material.normal_strength));
+        self.push(Material::new(kind, normal_map, material.two_sided))
+    }
+
+    fn kind(&mut self, kind: &'d desc::MaterialKind) -> MaterialKind {
+        match kind {
+            desc::MaterialKind::Diffuse { color } => MaterialKind::Diffuse { color: self.color(color) },
+            desc::MaterialKind::Phong { diffuse, specular, exponent } => MaterialKind::Phong {
+                diffuse: self.color(diffuse),
+                specular: self.color(specular),
+                exponent: self.float(exponent),
+            },
+            desc::MaterialKind::Mirror { color } => MaterialKind::Mirror { color: self.color(color) },
+            desc::MaterialKind::Dielectric { ior, color, priority } => {
+                MaterialKind::Dielectric { ior: self.ior(ior), color: self.color(color), priority: *priority }
+            }
+            desc::MaterialKind::Conductor { metal, roughness } => {
+                let (n, k) = self.metal(metal);
+                MaterialKind::Conductor { n, k, roughness: self.float(roughness) }
+            }
+            desc::MaterialKind::Plastic { color, ior, roughness } => MaterialKind::Plastic {
+                color: self.color(color),
+                ior: self.ior(ior),
+                roughness: self.float(roughness),
+            },
+        }
+    }
+
+    fn ior(&mut self, ior: &Ior) -> f32 {
+        match ior {
+            Ior::Value(n) => *n,
+            Ior::Glass(name) => color::named_ior(name).unwrap_or_else(|| {
+                self.unknown("unknown-ior", "index of refraction", name);
+                1.5
+            }),
+        }
+    }
+
+    fn metal(&mut self, metal: &Metal) -> (Lanes, Lanes) {
+        let (n, k) = match metal {
+            Metal::Index { n, k } => (*n, *k),
+            Metal::Named(name) => color::named_metal(name).unwrap_or_else(|| {
+                self.unknown("unknown-metal", "metal", name);
+                ([1.0; 3], [1.0; 3])
+            }),
+        };
+        // The unused fourth lane is given the last index, so that nothing is divided by zero there.
+        let lanes = |v: [f32; 3]| Lanes(math::Vec4::new(v[0], v[1], v[2], v[2]));
+        (lanes(n), lanes(k))
+    }
+
+    fn unknown(&mut self, code: &'static str, what: &str, name: &Sourced<String>) {
+        self.diagnostics.push(
+            Diagnostic::error(code, format!("there is no {what} named `{}`", name.value)).at(name.span),
+        );
+    }
+
+    fn color(&mut self, color: &'d ColorDesc) -> ColorSource {
+        match color {
+            ColorDesc::Rgb([r, g, b]) => ColorSource::Constant(Lanes::rgb(*r, *g, *b)),
+            ColorDesc::Texture(name) => match self.texture(name, false) {
+                Some(id) => ColorSource::Texture(id),
+                None => ColorSource::Constant(Lanes::ZERO),
+            },
+        }
+    }
+
+    fn float(&mut self, float: &'d FloatDesc) -> FloatSource {
+        match float {
+            FloatDesc::Value(x) => FloatSource::Constant(*x),
+            FloatDesc::Texture(name) => match self.texture(name, false) {
+                Some(id) => FloatSource::Texture(id),
+                None => FloatSource::Constant(0.0),
+            },
+        }
+    }
+
+    /// The texture of a name, read at first use; as normals it is read without decoding.
+    fn texture(&mut self, name: &'d Sourced<String>, as_normals: bool) -> Option<u32> {
+        let key = (name.as_str(), as_normals);
+        if let Some(&known) = self.texture_ids.get(&key) {
+            return known;
+        }
+        let Some(texture) = self.desc.textures.get(name.as_str()) else {
+            self.unknown("unknown-texture", "texture", name);
+            return None;
+        };
+        let built = self.build(texture, as_normals);
+        let id = built.map(|t| {
+            self.textures.push(t);
+            (self.textures.len() - 1) as u32
+        });
+        self.texture_ids.insert(key, id);
+        id
+    }
+
+    fn build(&mut self, texture: &'d Sourced<desc::Texture>, as_normals: bool) -> Option<Texture> {
+        match &texture.value {
+            desc::Texture::Checker { a, b, scale } => {
+                let even = self.checker_color(a, texture)?;
+                let odd = self.checker_color(b, texture)?;
+                let map = UvMap { scale: Vec2::from(*scale), offset: Vec2::ZERO };
+                Some(Texture::Checker(Checker { even, odd, map }))
+            }
+            desc::Texture::Image { file, color_space, wrap, filter, scale, offset } => {
+                let path = self.desc.resolve(file);
+                let encoding = match color_space {
+                    desc::ColorSpace::Srgb if !as_normals => Encoding::Srgb,
+                    _ => Encoding::Linear,
+                };
+                match ImageTexture::from_path(&path, encoding) {
+                    Ok(mut image) => {
+                        image.wrap = match wrap {
+                            desc::Wrap::Repeat => Wrap::Repeat,
+                            desc::Wrap::Clamp => Wrap::Clamp,
+                            desc::Wrap::Mirror => Wrap::Mirror,
+                        };
+                        image.filter = match filter {
+                            desc::TextureFilter::Trilinear => Filter::Trilinear,
+                            desc::TextureFilter::Bilinear => Filter::Bilinear,
+                            desc::TextureFilter::Nearest => Filter::Nearest,
+                        };
+                        image.map = UvMap { scale: Vec2::from(*scale), offset: Vec2::from(*offset) };
+                        Some(Texture::Image(image))
+                    }
+                    Err(e) => {
+                        self.diagnostics.push(
+                            Diagnostic::error("bad-image", format!("cannot read `{}`: {e}", file.display()))
+                                .at(file.span),
+                        );
+                        None
+                    }
+                }
+            }
+        }
+    }
+
+    fn checker_color(&mut self, color: &ColorDesc, texture: &Sourced<desc::Texture>) -> Option<[f32; 3]> {
+        match color {
+            ColorDesc::Rgb(rgb) => Some(*rgb),
+            ColorDesc::Texture(name) => {
+                self.diagnostics.push(
+                    Diagnostic::error("texture-in-checker", "the colours of a checker are constant")
+                        .at(name.span.or(texture.span))
+                        .help("write two colours, such as `a = [0.8, 0.8, 0.8]`"),
+                );
+                None
+            }
+        }
+    }
+}

@@ -1,0 +1,362 @@
+//! From a description to a scene: resolves names, reads meshes and images, builds the search structures.
+
+mod lights;
+mod materials;
+mod shapes;
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use accel::{Bvh, Geometry};
+use math::{Bounds3, Transform, Vec3};
+use scenefile::desc::{CameraKind, FovAxis, MaterialRef, Object as ObjectDesc, SceneDesc};
+use scenefile::{Diagnostic, Sourced, Span};
+
+use crate::camera::{Fov, Lens};
+use crate::light::LightPicker;
+use crate::scene::{Group, Outer, media_at};
+use crate::{
+    Camera, Light, LightId, Material, MaterialId, MaterialKind, MediumStack, Object, Scene, Shape, Target,
+    Targets,
+};
+use materials::Library;
+use shapes::Solid;
+
+/// Compiles a description. Runs on the threads of the enclosing `par::Workers::run`.
+///
+/// Returns the scene and what should be told about it (missing lights, shapes that had to be replaced).
+///
+/// # Errors
+/// Everything that is wrong and could not be known from the text alone: files that cannot be read or decoded, names
+/// that stand for nothing, shapes and lights without extent.
+pub fn compile(desc: &SceneDesc) -> Result<(Scene, Vec<Diagnostic>), Vec<Diagnostic>> {
+    Compiler::new(desc).run()
+}
+
+/// A placed solid, its material and its light.
+struct Placed {
+    solid: Solid,
+    material: MaterialId,
+    emission: Option<Sourced<scenefile::desc::Emission>>,
+    name: String,
+    span: Option<Span>,
+}
+
+struct Compiler<'d> {
+    desc: &'d SceneDesc,
+    library: Library<'d>,
+    diagnostics: Vec<Diagnostic>,
+    lights: Vec<Light>,
+    light_names: Vec<String>,
+    /// A point on or at each light, from which the media around it are found.
+    light_points: Vec<Option<Vec3>>,
+    targets: Vec<Target>,
+    geometry: Geometry,
+    outer: Vec<Outer>,
+    triangles: u64,
+    mesh_bytes: u64,
+    bounds: Bounds3,
+}
+
+impl<'d> Compiler<'d> {
+    fn new(desc: &'d SceneDesc) -> Self {
+        Self {
+            desc,
+            library: Library::new(desc),
+            diagnostics: Vec::new(),
+            lights: Vec::new(),
+            light_names: Vec::new(),
+            light_points: Vec::new(),
+            targets: Vec::new(),
+            geometry: Geometry::default(),
+            outer: Vec::new(),
+            triangles: 0,
+            mesh_bytes: 0,
+            bounds: Bounds3::EMPTY,
+        }
+    }
+
+    fn run(mut self) -> Result<(Scene, Vec<Diagnostic>), Vec<Diagnostic>> {
+        let camera = self.camera();
+        for placed in self.place(&self.desc.objects, None) {
+            self.add_object(placed);
+        }
+        let groups = self.instances();
+        for light in &self.desc.lights {
+            self.add_light(light);
+        }
+        self.diagnostics.append(&mut self.library.diagnostics);
+        if self.lights.is_empty() {
+            self.diagnostics.push(
+                Diagnostic::warning("no-light", "the scene has no light: the picture will be black")
+                    .help("add a [[lights]] entry, or `radiance` or `power` to an object"),
+            );
+        }
+        let errors = self.diagnostics.iter().any(Diagnostic::is_error);
+        match camera {
+            Some(camera) if !errors => Ok(self.finish(camera, groups)),
+            _ => Err(self.diagnostics),
+        }
+    }
+
+    /// Builds the solids of a list of objects, in parallel; what cannot be built is reported.
+    fn place(&mut self, objects: &'d [Sourced<ObjectDesc>], instance: Option<&Transform>) -> Vec<Placed> {
+        let materials: Vec<MaterialId> = objects.iter().map(|o| self.material_of(o)).collect();
+        let desc = self.desc;
+        let solids = par::map(objects.len(), |i| {
+            let solid = shapes::build(desc, &objects[i])?;
+            match instance {
+                None => Ok(solid),
+                Some(t) => Ok(solid.transformed(t)),
+            }
+        });
+        let mut placed = Vec::new();
+        for ((solid, object), material) in solids.into_iter().zip(objects).zip(materials) {
+            match solid {
+                Ok(solid) => placed.push(Placed {
+                    solid,
+                    material,
+                    emission: object.emission,
+                    name: object.name.clone().unwrap_or_default(),
+                    span: object.span,
+                }),
+                Err(diagnostic) => self.diagnostics.push(diagnostic),
+            }
+        }
+        placed
+    }
+
+    fn material_of(&mut self, object: &'d Sourced<ObjectDesc>) -> MaterialId {
+        match &object.material {
+            Some(reference) => self.library.resolve(reference),
+            None => self.library.black(),
+        }
+    }
+
+    fn add_object(&mut self, placed: Placed) {
+        self.bounds = self.bounds.union(placed.solid.bounds());
+        let light = placed.emission.and_then(|emission| match lights::area_light(&placed.solid, &emission) {
+            Some(light) => Some(self.push_light(light, placed.name.clone(), Some(placed.solid.a_point()))),
+            None => {
+                self.diagnostics.push(
+                    Diagnostic::error("no-area", "this object shines but has no area")
+                        .at(emission.span.or(placed.span)),
+                );
+                None
+            }
+        });
+        self.aim_at(placed.material, &placed.solid, None);
+        let object = self.object(placed.solid, placed.material, light, true);
+        self.outer.push(Outer::Object(object));
+    }
+
+    /// Makes caustic photons aim at a solid, if it is specular.
+    fn aim_at(&mut self, material: MaterialId, solid: &Solid, instance: Option<&Transform>) {
+        let weight = self.library.specular_weight(material);
+        if weight > 0.0 {
+            let target = match (solid, instance) {
+                (solid, None) => solid.target(weight),
+                (solid, Some(t)) => Target::from_bounds(t.bounds(&solid.bounds()), weight),
+            };
+            self.targets.push(target);
+        }
+    }
+
+    /// Adds a solid to the outer geometry (`outer`) or leaves that to the caller, and keeps what hits need.
+    fn object(&mut self, solid: Solid, material: MaterialId, light: Option<LightId>, outer: bool) -> Object {
+        let shape = match solid {
+            Solid::Mesh(mesh) => {
+                self.triangles += mesh.indices.len() as u64;
+                self.mesh_bytes += (size_of_val(&mesh.positions[..])
+                    + size_of_val(&mesh.normals[..])
+                    + size_of_val(&mesh.uvs[..])
+                    + size_of_val(&mesh.indices[..])) as u64;
+                if outer {
+                    self.geometry.add_triangles(&mesh.positions, &mesh.indices);
+                }
+                Shape::Mesh(Arc::new(mesh))
+            }
+            Solid::Sphere { center, radius, flipped } => {
+                if outer {
+                    self.geometry.add_sphere(center, radius);
+                }
+                Shape::Sphere { center, radius, flipped }
+            }
+            Solid::Disk { center, normal, radius } => {
+                if outer {
+                    self.geometry.add_disk(center, normal, radius);
+                }
+                Shape::Disk { center, normal, radius }
+            }
+        };
+        Object { shape, material, light }
+    }
+
+    /// Groups that are placed somewhere, with their instances. Objects that shine are placed one by one: each copy
+    /// is a light of its own.
+    fn instances(&mut self) -> Vec<Group> {
+        let mut groups: Vec<Group> = Vec::new();
+        let mut solids: Vec<Vec<Solid>> = Vec::new();
+        let mut ids: BTreeMap<&str, u32> = BTreeMap::new();
+        for instance in &self.desc.instances {
+            let Some(group) = self.desc.groups.get(instance.group.as_str()) else {
+                self.diagnostics.push(
+                    Diagnostic::error(
+                        "unknown-group",
+                        format!("there is no group `{}`", instance.group.value),
+                    )
+                    .at(instance.group.span),
+                );
+                continue;
+            };
+            let transform = match shapes::transform(&instance.transform) {
+                Some(t) => t,
+                None => {
+                    self.diagnostics.push(shapes::singular(instance.span));
+                    continue;
+                }
+            };
+            let id = *ids.entry(instance.group.as_str()).or_insert_with(|| {
+                let placed = self.place(&group.objects, None);
+                let still: Vec<Placed> = placed.into_iter().filter(|p| p.emission.is_none()).collect();
+                solids.push(still.iter().map(|p| p.solid.clone()).collect());
+                groups.push(self.group(still));
+                (groups.len() - 1) as u32
+            });
+            let material = instance.material.as_ref().map(|m: &'d MaterialRef| self.library.resolve(m));
+            let used = &groups[id as usize];
+            if !used.objects.is_empty() {
+                for (object, solid) in used.objects.iter().zip(&solids[id as usize]) {
+                    self.aim_at(material.unwrap_or(object.material), solid, Some(&transform));
+                }
+                let bvh = used.bvh.clone();
+                self.bounds = self.bounds.union(transform.bounds(&bvh.bounds()));
+                // A group holds no instances, so this one cannot be refused.
+                if self.geometry.add_instance(bvh, transform).is_ok() {
+                    self.outer.push(Outer::Instance { group: id, render_from_object: transform, material });
+                }
+            }
+            let shining = self.place(&group.objects, Some(&transform));
+            for mut placed in shining.into_iter().filter(|p| p.emission.is_some()) {
+                placed.material = material.unwrap_or(placed.material);
+                self.add_object(placed);
+            }
+        }
+        groups
+    }
+
+    fn group(&mut self, placed: Vec<Placed>) -> Group {
+        let mut geometry = Geometry::default();
+        let objects = placed
+            .into_iter()
+            .map(|p| {
+                match &p.solid {
+                    Solid::Mesh(mesh) => geometry.add_triangles(&mesh.positions, &mesh.indices),
+                    Solid::Sphere { center, radius, .. } => geometry.add_sphere(*center, *radius),
+                    Solid::Disk { center, normal, radius } => geometry.add_disk(*center, *normal, *radius),
+                };
+                self.object(p.solid, p.material, None, false)
+            })
+            .collect();
+        Group { objects, bvh: Arc::new(Bvh::build(geometry)) }
+    }
+
+    fn add_light(&mut self, light: &Sourced<scenefile::desc::Light>) {
+        match lights::light(&light.kind) {
+            Some((compiled, point)) => {
+                let name = light.name.clone().unwrap_or_else(|| lights::kind_name(&compiled).to_owned());
+                self.push_light(compiled, name, point);
+            }
+            None => self.diagnostics.push(
+                Diagnostic::error(
+                    "bad-light",
+                    "this light has a direction of length zero or a value that is no number",
+                )
+                .at(light.span),
+            ),
+        }
+    }
+
+    fn push_light(&mut self, light: Light, name: String, point: Option<Vec3>) -> LightId {
+        let name = if name.is_empty() { format!("lamp {}", self.lights.len() + 1) } else { name };
+        self.lights.push(light);
+        self.light_names.push(name);
+        self.light_points.push(point);
+        LightId((self.lights.len() - 1) as u32)
+    }
+
+    fn camera(&mut self) -> Option<Camera> {
+        let Some(camera) = &self.desc.camera else {
+            self.diagnostics.push(
+                Diagnostic::error("no-camera", "the scene has no camera")
+                    .help("add a [camera] table with `position` and `look_at`"),
+            );
+            return None;
+        };
+        let fov = match camera.fov_axis {
+            FovAxis::X => Fov::Horizontal(camera.fov),
+            FovAxis::Y => Fov::Vertical(camera.fov),
+            FovAxis::Smaller => Fov::Smaller(camera.fov),
+        };
+        let (position, look_at) = (Vec3::from(camera.position), Vec3::from(camera.look_at));
+        let lens = match camera.kind {
+            CameraKind::Pinhole => None,
+            CameraKind::ThinLens { lens_radius, focus_distance } => Some(Lens {
+                radius: lens_radius,
+                focus_distance: focus_distance.unwrap_or(position.distance(look_at)),
+            }),
+        };
+        match Camera::perspective(position, look_at, Vec3::from(camera.up), fov, self.desc.film.size, lens) {
+            Ok(camera) => Some(camera),
+            Err(e) => {
+                self.diagnostics.push(Diagnostic::error("bad-camera", e.to_string()).at(camera.span));
+                None
+            }
+        }
+    }
+
+    fn finish(mut self, camera: Camera, groups: Vec<Group>) -> (Scene, Vec<Diagnostic>) {
+        let bvh = Bvh::build(std::mem::take(&mut self.geometry));
+        for light in &mut self.lights {
+            light.preprocess(self.bounds);
+        }
+        let targets = Targets::new(self.targets);
+        let environments = (0..self.lights.len() as u32)
+            .map(LightId)
+            .filter(|id| matches!(self.lights[id.0 as usize], Light::Environment(_)))
+            .collect();
+        let (materials, textures) = self.library.finish();
+        let mut scene = Scene {
+            bvh,
+            outer: self.outer,
+            groups,
+            materials,
+            textures,
+            environments,
+            light_media: vec![MediumStack::default(); self.lights.len()],
+            direct_picker: LightPicker::direct(&self.lights),
+            global_picker: LightPicker::photons(&self.lights),
+            caustic_picker: LightPicker::caustics(&self.lights, &targets),
+            lights: self.lights,
+            light_names: self.light_names,
+            targets,
+            camera,
+            camera_medium: MediumStack::default(),
+            resolution: self.desc.film.size,
+            bounds: self.bounds,
+            triangles: self.triangles,
+            mesh_bytes: self.mesh_bytes,
+        };
+        let dielectrics =
+            scene.materials.iter().any(|m: &Material| matches!(m.kind, MaterialKind::Dielectric { .. }));
+        if dielectrics {
+            scene.camera_medium = media_at(&scene, scene.camera.position());
+            scene.light_media = self
+                .light_points
+                .iter()
+                .map(|p| p.map_or(MediumStack::default(), |p| media_at(&scene, p)))
+                .collect();
+        }
+        (scene, self.diagnostics)
+    }
+}

@@ -1,0 +1,267 @@
+use math::{Affine3A, Bounds3, Frame, Mat4, PI, Quat, Transform, Vec2, Vec3};
+use mesh::{MeshError, TriangleMesh, shapes};
+use scenefile::desc::{self, Normals, SceneDesc, Shape as ShapeDesc, TeapotPart, TransformStep};
+use scenefile::{Diagnostic, Sourced, Span};
+
+use crate::Target;
+
+/// A shape where it stands, before it becomes an object.
+#[derive(Clone, Debug)]
+pub(super) enum Solid {
+    Mesh(TriangleMesh),
+    Sphere { center: Vec3, radius: f32, flipped: bool },
+    Disk { center: Vec3, normal: Vec3, radius: f32 },
+}
+
+/// Facets around a sphere or disk that has to become a mesh because it is no longer round.
+const FACETS: u32 = 256;
+
+/// The placed solid of an object.
+pub(super) fn build(desc: &SceneDesc, object: &Sourced<desc::Object>) -> Result<Solid, Diagnostic> {
+    let span = object.shape.span.or(object.span);
+    let wrong = |e: MeshError| Diagnostic::error("bad-shape", e.to_string()).at(span);
+    let transform = transform(&object.transform).ok_or_else(|| singular(span))?;
+    let solid = solid(desc, &object.shape).map_err(wrong)?;
+    let solid = solid.transformed(&transform);
+    let solid = if object.flip_normals { solid.flipped() } else { solid };
+    if let Solid::Mesh(mesh) = &solid {
+        mesh.validate().map_err(wrong)?;
+    }
+    if solid.area() > 0.0 {
+        Ok(solid)
+    } else {
+        Err(Diagnostic::error("no-area", "this shape has no area").at(span))
+    }
+}
+
+/// The map of the steps, first step first; `None` where it is singular.
+pub(super) fn transform(steps: &[TransformStep]) -> Option<Transform> {
+    let mut m = Affine3A::IDENTITY;
+    for step in steps {
+        let next = match *step {
+            TransformStep::Translate(t) => Affine3A::from_translation(Vec3::from(t)),
+            TransformStep::Rotate { axis, degrees } => {
+                let axis = Vec3::from(axis).try_normalize()?;
+                Affine3A::from_quat(Quat::from_axis_angle(axis, degrees.to_radians()))
+            }
+            TransformStep::Scale(s) => Affine3A::from_scale(Vec3::from(s)),
+            TransformStep::LookAt { position, target, up } => {
+                let p = Vec3::from(position);
+                let z = (Vec3::from(target) - p).try_normalize()?;
+                let x = Vec3::from(up).cross(z).try_normalize()?;
+                Affine3A::from_mat3_translation(math::Mat3::from_cols(x, z.cross(x), z), p)
+            }
+            TransformStep::Matrix(rows) => Affine3A::from_mat4(Mat4::from_cols_array(&rows).transpose()),
+        };
+        m = next * m;
+    }
+    Transform::new(m)
+}
+
+pub(super) fn singular(span: Option<Span>) -> Diagnostic {
+    Diagnostic::error("singular-transform", "this transform flattens space, or is not finite").at(span)
+}
+
+fn solid(desc: &SceneDesc, shape: &ShapeDesc) -> Result<Solid, MeshError> {
+    let v = Vec3::from;
+    let mesh = match shape {
+        ShapeDesc::Sphere { center, radius } => {
+            return Ok(Solid::Sphere { center: v(*center), radius: *radius, flipped: false });
+        }
+        ShapeDesc::Disk { center, normal, radius } => {
+            let normal = v(*normal).as_dvec3().normalize_or_zero().as_vec3();
+            return Ok(Solid::Disk { center: v(*center), normal, radius: *radius });
+        }
+        ShapeDesc::Quad { origin, edge_u, edge_v } => shapes::quad(v(*origin), v(*edge_u), v(*edge_v)),
+        ShapeDesc::Corners { corners } => four_corners(corners.map(v)),
+        ShapeDesc::Mesh { file, normals } => with_normals(mesh::read(desc.resolve(file))?, *normals),
+        ShapeDesc::Triangles { positions, indices, vertex_normals, uvs, normals } => {
+            let mesh = TriangleMesh {
+                positions: positions.iter().copied().map(v).collect(),
+                normals: vertex_normals.iter().map(|n| v(*n).normalize_or_zero()).collect(),
+                uvs: uvs.iter().copied().map(Vec2::from).collect(),
+                indices: indices.clone(),
+            };
+            mesh.validate()?;
+            with_normals(mesh, *normals)
+        }
+        ShapeDesc::Box { min, max } => shapes::box_(v(*min), v(*max)),
+        ShapeDesc::Teapot { level, parts } => teapot(*level, parts),
+        ShapeDesc::Lathe { profile, segments, smooth, closed } => {
+            let points = profile.iter().copied().map(Vec2::from).collect();
+            let outline = shapes::Profile { closed: *closed, ..shapes::Profile::polyline(points) };
+            let mesh = shapes::lathe(&outline, *segments)?;
+            if *smooth { mesh } else { TriangleMesh { normals: Vec::new(), ..mesh } }
+        }
+        ShapeDesc::Cylinder { base, axis, radius, height, inward, segments } => {
+            let tube = shapes::cylinder(*radius, *height, *segments);
+            let tube = if *inward { tube.flipped() } else { tube };
+            tube.transformed(&upright(v(*base), v(*axis)))
+        }
+        ShapeDesc::Torus { center, axis, major_radius, minor_radius, segments, tube_segments } => {
+            shapes::torus(*major_radius, *minor_radius, *segments, *tube_segments)
+                .transformed(&upright(v(*center), v(*axis)))
+        }
+        ShapeDesc::Icosphere { center, radius, level, smooth } => {
+            let mut ball = shapes::icosphere(*radius, *level);
+            if !smooth {
+                ball.normals.clear();
+            }
+            place(ball, Affine3A::from_translation(v(*center)))
+        }
+    };
+    Ok(Solid::Mesh(mesh))
+}
+
+/// Two triangles, split from the first corner to the third; the four need not be planar.
+fn four_corners(corners: [Vec3; 4]) -> TriangleMesh {
+    TriangleMesh {
+        positions: corners.to_vec(),
+        normals: Vec::new(),
+        uvs: [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(Vec2::from).to_vec(),
+        indices: vec![[0, 1, 2], [0, 2, 3]],
+    }
+}
+
+fn teapot(level: u32, parts: &[TeapotPart]) -> TriangleMesh {
+    parts.iter().fold(TriangleMesh::default(), |mesh, part| {
+        let part = match part {
+            TeapotPart::Body => shapes::TeapotPart::Body,
+            TeapotPart::Handle => shapes::TeapotPart::Handle,
+            TeapotPart::Spout => shapes::TeapotPart::Spout,
+            TeapotPart::Lid => shapes::TeapotPart::Lid,
+            TeapotPart::Bottom => shapes::TeapotPart::Bottom,
+        };
+        mesh.merged(&shapes::teapot_part(part, level))
+    })
+}
+
+fn with_normals(mesh: TriangleMesh, normals: Normals) -> TriangleMesh {
+    match normals {
+        Normals::Given => mesh,
+        Normals::Flat => TriangleMesh { normals: Vec::new(), ..mesh },
+        Normals::Smooth { crease_degrees } => mesh.with_crease(crease_degrees.to_radians()),
+    }
+}
+
+/// Takes the y axis to `axis` and the origin to `base`.
+fn upright(base: Vec3, axis: Vec3) -> Transform {
+    let y = axis.normalize_or(Vec3::Y);
+    let frame = Frame::from_z(y);
+    // x, y, z = frame.y, axis, frame.x keeps handedness: y × z = x.
+    let m = Affine3A::from_mat3_translation(math::Mat3::from_cols(frame.y, y, frame.x), base);
+    Transform::new(m).unwrap_or_default()
+}
+
+fn place(mesh: TriangleMesh, m: Affine3A) -> TriangleMesh {
+    mesh.transformed(&Transform::new(m).unwrap_or_default())
+}
+
+impl Solid {
+    pub fn bounds(&self) -> Bounds3 {
+        match self {
+            Self::Mesh(mesh) => mesh.bounds(),
+            Self::Sphere { center, radius, .. } => {
+                Bounds3 { min: *center - Vec3::splat(*radius), max: *center + Vec3::splat(*radius) }
+            }
+            Self::Disk { center, normal, radius } => {
+                // Half extent along an axis: r·√(1 − n²).
+                let half = (Vec3::ONE - *normal * *normal).max(Vec3::ZERO).map(f32::sqrt) * *radius;
+                Bounds3 { min: *center - half, max: *center + half }
+            }
+        }
+    }
+
+    /// Area of one side.
+    pub fn area(&self) -> f64 {
+        let pi = f64::from(PI);
+        match self {
+            Self::Mesh(mesh) => mesh.area(),
+            Self::Sphere { radius, .. } => 4.0 * pi * f64::from(*radius).powi(2),
+            Self::Disk { radius, .. } => pi * f64::from(*radius).powi(2),
+        }
+    }
+
+    /// A point from which the surface itself is not in the way of finding out what surrounds it: just off the front.
+    pub fn a_point(&self) -> Vec3 {
+        let lift = 1e-4 * self.bounds().size().length();
+        match self {
+            Self::Mesh(mesh) => {
+                // The largest triangle, so that its middle lies well inside the surface.
+                let area = |i: usize| {
+                    let [a, b, c] = mesh.corners(i);
+                    (b - a).cross(c - a).length()
+                };
+                let widest =
+                    (0..mesh.indices.len()).max_by(|&i, &j| area(i).total_cmp(&area(j))).unwrap_or(0);
+                let [a, b, c] = mesh.corners(widest);
+                (a + b + c) / 3.0 + (b - a).cross(c - a).normalize_or_zero() * lift
+            }
+            Self::Sphere { center, radius, flipped: false } => *center + Vec3::X * (*radius + lift),
+            Self::Sphere { center, .. } => *center,
+            Self::Disk { center, normal, .. } => *center + *normal * lift,
+        }
+    }
+
+    /// What caustic photons are aimed at.
+    pub fn target(&self, weight: f32) -> Target {
+        let bounds = self.bounds();
+        match self {
+            Self::Sphere { center, radius, .. } | Self::Disk { center, radius, .. } => {
+                Target { bounds, center: *center, radius: *radius, weight }
+            }
+            Self::Mesh(mesh) => {
+                let center = bounds.center();
+                let radius2 = mesh.positions.iter().map(|p| p.distance_squared(center)).fold(0.0, f32::max);
+                Target { bounds, center, radius: radius2.sqrt(), weight }
+            }
+        }
+    }
+
+    pub fn flipped(self) -> Self {
+        match self {
+            Self::Mesh(mesh) => Self::Mesh(mesh.flipped()),
+            Self::Sphere { center, radius, flipped } => Self::Sphere { center, radius, flipped: !flipped },
+            Self::Disk { center, normal, radius } => Self::Disk { center, normal: -normal, radius },
+        }
+    }
+
+    /// Spheres and disks stay what they are under turns, moves and even scaling; else they become meshes.
+    pub fn transformed(self, t: &Transform) -> Self {
+        if *t == Transform::IDENTITY {
+            return self;
+        }
+        let scale = even_scale(t);
+        match (self, scale) {
+            (Self::Mesh(mesh), _) => Self::Mesh(mesh.transformed(t)),
+            (Self::Sphere { center, radius, flipped }, Some(s)) => {
+                Self::Sphere { center: t.point(center), radius: radius * s, flipped }
+            }
+            (Self::Disk { center, normal, radius }, Some(s)) => Self::Disk {
+                center: t.point(center),
+                normal: t.normal(normal).normalize(),
+                radius: radius * s,
+            },
+            (Self::Sphere { center, radius, flipped }, None) => {
+                let ball = shapes::uv_sphere(radius, FACETS, FACETS / 2);
+                let ball = place(ball, Affine3A::from_translation(center)).transformed(t);
+                Self::Mesh(if flipped { ball.flipped() } else { ball })
+            }
+            (Self::Disk { center, normal, radius }, None) => {
+                let disk = shapes::disk(radius, FACETS).transformed(&upright(center, normal));
+                Self::Mesh(disk.transformed(t))
+            }
+        }
+    }
+}
+
+/// The factor by which all lengths grow, if it is the same in every direction (to 10⁻⁵).
+fn even_scale(t: &Transform) -> Option<f32> {
+    let m = t.matrix().matrix3;
+    let [a, b, c] = [m.x_axis, m.y_axis, m.z_axis].map(Vec3::from);
+    let s = a.length();
+    let tolerance = 1e-5 * s;
+    let equal = (b.length() - s).abs() < tolerance && (c.length() - s).abs() < tolerance;
+    let square = [a.dot(b), b.dot(c), c.dot(a)].iter().all(|d| d.abs() < tolerance * s);
+    (equal && square).then_some(s)
+}

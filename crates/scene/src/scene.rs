@@ -1,0 +1,265 @@
+use std::sync::Arc;
+
+use accel::{Bvh, NO_INSTANCE};
+use bsdf::Bsdf;
+use color::{LaneBasis, Lanes};
+use math::{Bounds3, Ray, Transform, Vec3};
+
+use crate::light::LightPicker;
+use crate::material::Lookup;
+use crate::shape::to_world;
+use crate::{
+    Boundary, Camera, Light, LightId, Material, MaterialId, Medium, MediumStack, Object, SurfaceInteraction,
+    Targets, Texture,
+};
+
+/// Objects with a BVH of their own, placed by instances.
+#[derive(Debug)]
+pub(crate) struct Group {
+    pub objects: Vec<Object>,
+    pub bvh: Arc<Bvh>,
+}
+
+/// What a geometry id of the outer BVH stands for.
+#[derive(Debug)]
+pub(crate) enum Outer {
+    Object(Object),
+    Instance { group: u32, render_from_object: Transform, material: Option<MaterialId> },
+}
+
+/// A compiled scene.
+#[derive(Debug)]
+pub struct Scene {
+    pub(crate) bvh: Bvh,
+    pub(crate) outer: Vec<Outer>,
+    pub(crate) groups: Vec<Group>,
+    pub(crate) materials: Vec<Material>,
+    pub(crate) textures: Vec<Texture>,
+    pub(crate) lights: Vec<Light>,
+    pub(crate) light_names: Vec<String>,
+    /// Lights that rays reach by leaving the scene.
+    pub(crate) environments: Vec<LightId>,
+    pub(crate) light_media: Vec<MediumStack>,
+    pub(crate) direct_picker: LightPicker,
+    pub(crate) global_picker: LightPicker,
+    pub(crate) caustic_picker: LightPicker,
+    pub(crate) targets: Targets,
+    pub(crate) camera: Camera,
+    pub(crate) camera_medium: MediumStack,
+    pub(crate) resolution: [u32; 2],
+    pub(crate) bounds: Bounds3,
+    pub(crate) triangles: u64,
+    pub(crate) mesh_bytes: u64,
+}
+
+impl Scene {
+    /// The first surface that a ray meets.
+    #[inline]
+    pub fn intersect(&self, ray: &Ray) -> Option<SurfaceInteraction> {
+        let hit = self.bvh.closest(ray)?;
+        if hit.instance == NO_INSTANCE {
+            return match &self.outer[hit.geom as usize] {
+                Outer::Object(object) => Some(object.interaction(ray, &hit)),
+                Outer::Instance { .. } => None,
+            };
+        }
+        self.intersect_instance(ray, &hit)
+    }
+
+    fn intersect_instance(&self, ray: &Ray, hit: &accel::Hit) -> Option<SurfaceInteraction> {
+        let Outer::Instance { group, render_from_object, material } = &self.outer[hit.instance as usize]
+        else {
+            return None;
+        };
+        let inverse = render_from_object.inverse();
+        let local = Ray {
+            origin: inverse.point(ray.origin),
+            direction: inverse.vector(ray.direction),
+            t_max: ray.t_max,
+        };
+        let object = &self.groups[*group as usize].objects[hit.geom as usize];
+        let mut s = to_world(object.interaction(&local, hit), render_from_object);
+        if let Some(material) = material {
+            s.material = *material;
+        }
+        Some(s)
+    }
+
+    /// Whether anything lies on the ray.
+    #[inline]
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        self.bvh.occluded(ray)
+    }
+
+    /// The BSDF at `hit`, seen from `wo`. `eta`: relative index (inside over outside) of a dielectric boundary, from
+    /// [`Scene::boundary`]; `footprint`: width of the ray there, in units of length.
+    #[inline]
+    pub fn bsdf(&self, hit: &SurfaceInteraction, wo: Vec3, eta: f32, footprint: f32) -> Bsdf {
+        let lookup = Lookup { textures: &self.textures, footprint };
+        self.materials[hit.material.0 as usize].bsdf(hit, wo, eta, &lookup)
+    }
+
+    /// The dielectric that the surface at `hit` bounds.
+    #[inline]
+    pub fn medium(&self, hit: &SurfaceInteraction) -> Option<Medium> {
+        self.materials[hit.material.0 as usize].medium(hit.material)
+    }
+
+    /// What the boundary at `hit` separates for a ray along `w` inside `media`; `None` where it is no dielectric.
+    #[inline]
+    pub fn boundary(&self, hit: &SurfaceInteraction, media: &MediumStack, w: Vec3) -> Option<Boundary> {
+        Some(media.boundary(self.medium(hit)?, w.dot(hit.ng) < 0.0))
+    }
+
+    /// Materials by id.
+    pub fn materials(&self) -> &[Material] {
+        &self.materials
+    }
+
+    /// Lights by id.
+    pub fn lights(&self) -> &[Light] {
+        &self.lights
+    }
+
+    /// A light.
+    #[inline]
+    pub fn light(&self, id: LightId) -> &Light {
+        &self.lights[id.0 as usize]
+    }
+
+    /// What a light is called in messages.
+    pub fn light_name(&self, id: LightId) -> &str {
+        self.light_names.get(id.0 as usize).map_or("", String::as_str)
+    }
+
+    /// The dielectrics that a light lies in.
+    pub fn light_medium(&self, id: LightId) -> MediumStack {
+        self.light_media.get(id.0 as usize).copied().unwrap_or_default()
+    }
+
+    /// Radiance that comes along a ray that leaves the scene in direction `w`, light by light.
+    pub fn environments(&self) -> &[LightId] {
+        &self.environments
+    }
+
+    /// How lights are chosen for direct light.
+    pub fn direct_picker(&self) -> &LightPicker {
+        &self.direct_picker
+    }
+
+    /// How lights are chosen for photons of the global map.
+    pub fn global_picker(&self) -> &LightPicker {
+        &self.global_picker
+    }
+
+    /// How lights are chosen for photons aimed at specular objects.
+    pub fn caustic_picker(&self) -> &LightPicker {
+        &self.caustic_picker
+    }
+
+    /// The specular objects, at which caustic photons are aimed.
+    pub fn targets(&self) -> &Targets {
+        &self.targets
+    }
+
+    /// The camera.
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
+    /// The dielectrics that the camera is in.
+    pub fn camera_medium(&self) -> MediumStack {
+        self.camera_medium
+    }
+
+    /// Width and height of the film, in pixels.
+    pub fn resolution(&self) -> [u32; 2] {
+        self.resolution
+    }
+
+    /// Bounds of all geometry.
+    pub fn bounds(&self) -> Bounds3 {
+        self.bounds
+    }
+
+    /// Meaning of the lanes.
+    pub fn basis(&self) -> LaneBasis {
+        LaneBasis::LinearRgb
+    }
+
+    /// Flux of all lights, W per lane.
+    pub fn power(&self) -> Lanes {
+        self.lights.iter().fold(Lanes::ZERO, |sum, l| sum + l.power())
+    }
+
+    /// Counts and sizes, for reports.
+    pub fn summary(&self) -> Summary {
+        Summary {
+            objects: self.outer.iter().filter(|o| matches!(o, Outer::Object(_))).count(),
+            instances: self.outer.iter().filter(|o| matches!(o, Outer::Instance { .. })).count(),
+            groups: self.groups.len(),
+            triangles: self.triangles,
+            materials: self.materials.len(),
+            textures: self.textures.len(),
+            mesh_bytes: self.mesh_bytes,
+            bvh_bytes: (self.bvh.memory_bytes()
+                + self.groups.iter().map(|g| g.bvh.memory_bytes()).sum::<usize>())
+                as u64,
+            texture_bytes: self.textures.iter().map(texture_bytes).sum(),
+        }
+    }
+}
+
+fn texture_bytes(texture: &Texture) -> u64 {
+    match texture {
+        Texture::Image(image) => image.memory_bytes() as u64,
+        _ => 0,
+    }
+}
+
+/// Counts and sizes of a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Summary {
+    /// Objects outside groups.
+    pub objects: usize,
+    /// Placed groups.
+    pub instances: usize,
+    /// Groups.
+    pub groups: usize,
+    /// Triangles, those of a group once.
+    pub triangles: u64,
+    /// Materials.
+    pub materials: usize,
+    /// Textures.
+    pub textures: usize,
+    /// Bytes of vertices and indices.
+    pub mesh_bytes: u64,
+    /// Bytes of the ray tracing structures.
+    pub bvh_bytes: u64,
+    /// Bytes of images.
+    pub texture_bytes: u64,
+}
+
+/// The dielectrics that `p` is inside of: those whose boundaries a ray from `p` leaves more often than it enters.
+/// Boundaries are taken as closed.
+pub(crate) fn media_at(scene: &Scene, p: Vec3) -> MediumStack {
+    // An odd direction, so that it runs along no wall of a scene laid out on axes.
+    let w = Vec3::new(0.532_1, 0.618_9, 0.577_7).normalize();
+    let mut ray = Ray::new(p, w);
+    let mut crossings: Vec<(Medium, i32)> = Vec::new();
+    for _ in 0..10_000 {
+        let Some(hit) = scene.intersect(&ray) else { break };
+        if let Some(medium) = scene.medium(&hit) {
+            let leaving = if w.dot(hit.ng) > 0.0 { 1 } else { -1 };
+            match crossings.iter_mut().find(|(m, _)| m.material == medium.material) {
+                Some((_, n)) => *n += leaving,
+                None => crossings.push((medium, leaving)),
+            }
+        }
+        ray = hit.spawn_ray(w);
+    }
+    // The solid that is left last lies outermost.
+    crossings.iter().rev().filter(|(_, n)| *n > 0).fold(MediumStack::default(), |stack, (medium, n)| {
+        (0..*n).fold(stack, |stack, _| stack.crossed(*medium, true))
+    })
+}

@@ -1,0 +1,170 @@
+use std::sync::Arc;
+
+use math::{PI, Ray, Transform, Vec2, Vec3, gamma};
+use mesh::TriangleMesh;
+
+use crate::{LightId, MaterialId, SurfaceInteraction};
+
+/// Geometry of an object, in the space of the BVH that holds it.
+#[derive(Clone, Debug)]
+pub enum Shape {
+    /// Triangles.
+    Mesh(Arc<TriangleMesh>),
+    /// A sphere; its front is outside.
+    Sphere {
+        /// Centre.
+        center: Vec3,
+        /// Radius.
+        radius: f32,
+        /// Whether its front is inside.
+        flipped: bool,
+    },
+    /// A flat disc; its front is the side of the normal.
+    Disk {
+        /// Centre.
+        center: Vec3,
+        /// Unit normal.
+        normal: Vec3,
+        /// Radius.
+        radius: f32,
+    },
+}
+
+/// A shape and what it is made of.
+#[derive(Clone, Debug)]
+pub struct Object {
+    /// Geometry.
+    pub shape: Shape,
+    /// Material.
+    pub material: MaterialId,
+    /// The light that it is, if it shines.
+    pub light: Option<LightId>,
+}
+
+impl Object {
+    /// The surface at a hit of `ray`.
+    #[inline]
+    pub(crate) fn interaction(&self, ray: &Ray, hit: &accel::Hit) -> SurfaceInteraction {
+        let mut s = match &self.shape {
+            Shape::Mesh(mesh) => triangle(mesh, hit),
+            Shape::Sphere { center, radius, flipped } => sphere(*center, *radius, *flipped, ray, hit),
+            Shape::Disk { center, normal, radius } => disk(*center, *normal, *radius, ray, hit),
+        };
+        s.material = self.material;
+        s.light = self.light;
+        s
+    }
+}
+
+fn blank(hit: &accel::Hit) -> SurfaceInteraction {
+    SurfaceInteraction {
+        p: Vec3::ZERO,
+        p_error: Vec3::ZERO,
+        ng: Vec3::Z,
+        ns: Vec3::Z,
+        dpdu: Vec3::ZERO,
+        uv: Vec2::new(hit.u, hit.v),
+        uv_per_length: 0.0,
+        t: hit.t,
+        material: MaterialId(0),
+        light: None,
+        flipped: false,
+        prim: hit.prim,
+    }
+}
+
+#[inline]
+fn triangle(mesh: &TriangleMesh, hit: &accel::Hit) -> SurfaceInteraction {
+    let [i0, i1, i2] = mesh.indices[hit.prim as usize].map(|i| i as usize);
+    let (p0, p1, p2) = (mesh.positions[i0], mesh.positions[i1], mesh.positions[i2]);
+    let (b1, b2) = (hit.u, hit.v);
+    let b0 = 1.0 - b1 - b2;
+    let (q0, q1, q2) = (p0 * b0, p1 * b1, p2 * b2);
+    let (e1, e2) = (p1 - p0, p2 - p0);
+    let cross = e1.cross(e2);
+    let mut s = blank(hit);
+    s.p = q0 + q1 + q2;
+    // Pharr, Jakob & Humphreys 2023, §6.8.5: barycentric interpolation, seven rounded operations.
+    s.p_error = (q0.abs() + q1.abs() + q2.abs()) * gamma(7);
+    let area2 = cross.length();
+    s.ng = if area2 > 0.0 { cross / area2 } else { sliver_normal(p0, p1, p2) };
+    s.ns = s.ng;
+    if !mesh.normals.is_empty() {
+        let n = mesh.normals[i0] * b0 + mesh.normals[i1] * b1 + mesh.normals[i2] * b2;
+        let len2 = n.length_squared();
+        if len2 > 0.0 {
+            let n = n / len2.sqrt();
+            s.ns = if n.dot(s.ng) < 0.0 { -n } else { n };
+        }
+    }
+    if !mesh.uvs.is_empty() {
+        let (t0, t1, t2) = (mesh.uvs[i0], mesh.uvs[i1], mesh.uvs[i2]);
+        s.uv = t0 * b0 + t1 * b1 + t2 * b2;
+        let (d1, d2) = (t1 - t0, t2 - t0);
+        let det = d1.x * d2.y - d1.y * d2.x;
+        if det != 0.0 {
+            s.dpdu = (e1 * d2.y - e2 * d1.y) / det;
+            s.uv_per_length = (det.abs() / area2.max(f32::MIN_POSITIVE)).sqrt();
+        }
+    }
+    s
+}
+
+/// The normal of a triangle whose cross product underflows, in f64; z where it has no area at all.
+#[cold]
+fn sliver_normal(p0: Vec3, p1: Vec3, p2: Vec3) -> Vec3 {
+    let n = (p1 - p0).as_dvec3().cross((p2 - p0).as_dvec3());
+    if n.length_squared() > 0.0 { n.normalize().as_vec3() } else { Vec3::Z }
+}
+
+fn sphere(center: Vec3, radius: f32, flipped: bool, ray: &Ray, hit: &accel::Hit) -> SurfaceInteraction {
+    let mut s = blank(hit);
+    let n = (ray.at(hit.t) - center).normalize();
+    let q = n * radius;
+    s.p = center + q;
+    // Normalising and scaling: five rounded operations on q; the sum rounds once more.
+    s.p_error = q.abs() * gamma(5) + s.p.abs() * gamma(1);
+    s.ng = if flipped { -n } else { n };
+    s.ns = s.ng;
+    s.flipped = flipped;
+    let phi = n.x.atan2(-n.z);
+    s.uv = Vec2::new(phi / (2.0 * PI) + 0.5, n.y.clamp(-1.0, 1.0).asin() / PI + 0.5);
+    s.dpdu = Vec3::new(-n.z, 0.0, n.x);
+    s.uv_per_length = 1.0 / (std::f32::consts::SQRT_2 * PI * radius);
+    s
+}
+
+fn disk(center: Vec3, normal: Vec3, radius: f32, ray: &Ray, hit: &accel::Hit) -> SurfaceInteraction {
+    let mut s = blank(hit);
+    let p = ray.at(hit.t);
+    s.p = p - normal * (p - center).dot(normal);
+    s.p_error = (s.p.abs() + center.abs()) * gamma(6);
+    s.ng = normal;
+    s.ns = normal;
+    let frame = math::Frame::from_z(normal);
+    let local = frame.to_local(s.p - center) / radius;
+    s.uv = Vec2::new(local.x, local.y) * 0.5 + 0.5;
+    s.dpdu = frame.x;
+    s.uv_per_length = 0.5 / radius;
+    s
+}
+
+/// A hit found in an instance's own space, moved to the world.
+pub(crate) fn to_world(mut s: SurfaceInteraction, m: &Transform) -> SurfaceInteraction {
+    let matrix = m.matrix().matrix3;
+    let abs = |v: Vec3| {
+        Vec3::from(matrix.x_axis).abs() * v.x
+            + Vec3::from(matrix.y_axis).abs() * v.y
+            + Vec3::from(matrix.z_axis).abs() * v.z
+    };
+    let scale = matrix.determinant().abs().cbrt();
+    // Pharr, Jakob & Humphreys 2023, eq. 6.30: the error of a transformed point that was not exact.
+    let translation = Vec3::from(m.matrix().translation).abs();
+    s.p_error = abs(s.p_error) * (1.0 + gamma(3)) + (abs(s.p.abs()) + translation) * gamma(3);
+    s.p = m.point(s.p);
+    s.ng = m.normal(s.ng).normalize();
+    s.ns = m.normal(s.ns).normalize();
+    s.dpdu = m.vector(s.dpdu);
+    s.uv_per_length /= scale.max(f32::MIN_POSITIVE);
+    s
+}

@@ -1,0 +1,102 @@
+use bsdf::TransportMode;
+use color::Lanes;
+use sampling::Sampler;
+use scene::light::LightHit;
+use scene::{LightId, Scene};
+
+use crate::{Vertex, Walk};
+
+/// Power heuristic with exponent 2 (Veach 1997, eq. 9.13) for a sample of density `own` against one other
+/// technique of density `other`.
+#[inline]
+pub fn power_heuristic(own: f32, other: f32) -> f32 {
+    if own.is_infinite() {
+        return 1.0;
+    }
+    let ratio = other / own;
+    1.0 / (1.0 + ratio * ratio)
+}
+
+/// Next-event estimation: light reflected toward `vertex.wo` that arrives straight from one sampled light, with the
+/// weight against finding the light by BSDF sampling. Not multiplied by any throughput.
+#[inline]
+pub fn direct(scene: &Scene, vertex: &Vertex, sampler: &mut Sampler) -> Lanes {
+    let u_light = sampler.next_1d();
+    let u = sampler.next_2d();
+    direct_with(scene, vertex, u_light, u)
+}
+
+/// [`direct`] from given numbers.
+#[inline]
+pub fn direct_with(scene: &Scene, vertex: &Vertex, u_light: f32, u: [f32; 2]) -> Lanes {
+    if vertex.bsdf.is_delta_only() {
+        return Lanes::ZERO;
+    }
+    let (index, pmf, u_pick) = scene.direct_picker().sample(u_light);
+    if pmf == 0.0 {
+        return Lanes::ZERO;
+    }
+    let id = LightId(index as u32);
+    let Some(li) = scene.light(id).sample_li(vertex.hit.p, vertex.hit.ng, u_pick, u) else {
+        return Lanes::ZERO;
+    };
+    let f = vertex.bsdf.eval(vertex.wo, li.wi, TransportMode::Radiance);
+    if f.is_zero() || li.radiance.is_zero() {
+        return Lanes::ZERO;
+    }
+    let cos = vertex.bsdf.ns().dot(li.wi).abs();
+    let density = pmf * li.pdf_w;
+    let weight = if li.is_delta {
+        1.0
+    } else {
+        power_heuristic(density, vertex.bsdf.pdf_w(vertex.wo, li.wi, TransportMode::Radiance))
+    };
+    let ray = if li.distance.is_finite() {
+        vertex.hit.spawn_ray_to(li.p, li.p_error, li.n)
+    } else {
+        vertex.hit.spawn_ray(li.wi)
+    };
+    if scene.occluded(&ray) {
+        return Lanes::ZERO;
+    }
+    f * li.radiance * (cos * weight / density)
+}
+
+/// A light that a walk met by following its own ray.
+#[derive(Clone, Copy, Debug)]
+pub struct Emission {
+    /// Which.
+    pub light: LightId,
+    /// Its radiance along the ray.
+    pub radiance: Lanes,
+    /// Weight against light sampling at the last vertex; 1 where that could not have found it.
+    pub weight: f32,
+}
+
+/// The light that the surface at `vertex` is, seen from where the walk came.
+#[inline]
+pub fn emission_at(walk: &Walk<'_>, vertex: &Vertex) -> Option<Emission> {
+    let (light, radiance) = vertex.emitted(walk.scene())?;
+    let hit = LightHit { p: vertex.hit.p, ng: vertex.hit.authored_ng(), prim: vertex.hit.prim };
+    Some(Emission { light, radiance, weight: weight_against_direct(walk, light, Some(hit)) })
+}
+
+/// The lights at infinity that a walk sees when it leaves the scene.
+pub fn emission_escaped<'w>(walk: &'w Walk<'_>) -> impl Iterator<Item = Emission> + 'w {
+    walk.scene().environments().iter().filter_map(|&light| {
+        let radiance = walk.scene().light(light).escaped(walk.ray.direction);
+        (!radiance.is_zero()).then(|| Emission {
+            light,
+            radiance,
+            weight: weight_against_direct(walk, light, None),
+        })
+    })
+}
+
+fn weight_against_direct(walk: &Walk<'_>, light: LightId, hit: Option<LightHit>) -> f32 {
+    let Some(last) = walk.last().filter(|last| last.lit) else { return 1.0 };
+    let scene = walk.scene();
+    let pmf = scene.direct_picker().pmf(light.0 as usize);
+    let other = pmf * scene.light(light).pdf_li_w(last.p, walk.ray.direction, hit);
+    power_heuristic(last.pdf_w, other)
+}

@@ -1,0 +1,57 @@
+use bsdf::TransportMode;
+use color::Lanes;
+use math::{Ray, offset_ray_origin};
+use sampling::Sampler;
+use scene::light::{LeSample, LightPicker};
+use scene::{LightId, Scene};
+
+use crate::Walk;
+
+/// A photon that has just left a light.
+#[derive(Clone, Copy, Debug)]
+pub struct EmittedPhoton<'s> {
+    /// The light.
+    pub light: LightId,
+    /// The walk; its throughput is the flux in W that one photon would carry if it were the only one: divide by
+    /// the number of emitted photons.
+    pub walk: Walk<'s>,
+}
+
+/// A photon in proportion to the lights' power, cosine-weighted over area lights. `None`: it carries nothing, and
+/// counts as emitted all the same.
+///
+/// Φ = Le·cosθ / (p_light · p_area · p_direction) (Jensen 2001, §5.1).
+pub fn emit<'s>(scene: &'s Scene, sampler: &mut Sampler) -> Option<EmittedPhoton<'s>> {
+    let (u_light, u_pos, u_dir) = (sampler.next_1d(), sampler.next_2d(), sampler.next_2d());
+    launch(scene, scene.global_picker(), u_light, |light, u_pick| light.sample_le(u_pick, u_pos, u_dir))
+}
+
+/// A photon aimed at the scene's specular objects. Its flux is exact: the density is that of the aimed direction.
+/// `None`: it carries nothing or misses every object, and counts as emitted.
+pub fn emit_toward_targets<'s>(scene: &'s Scene, sampler: &mut Sampler) -> Option<EmittedPhoton<'s>> {
+    let (u_light, u_pos, u_dir) = (sampler.next_1d(), sampler.next_2d(), sampler.next_2d());
+    launch(scene, scene.caustic_picker(), u_light, |light, u_pick| {
+        light.sample_le_toward(scene.targets(), u_pick, u_pos, u_dir)
+    })
+}
+
+fn launch<'s>(
+    scene: &'s Scene,
+    picker: &LightPicker,
+    u_light: f32,
+    sample: impl FnOnce(&scene::Light, f32) -> Option<LeSample>,
+) -> Option<EmittedPhoton<'s>> {
+    let (index, pmf, u_pick) = picker.sample(u_light);
+    if pmf == 0.0 {
+        return None;
+    }
+    let id = LightId(index as u32);
+    let le = sample(scene.light(id), u_pick)?;
+    let flux: Lanes = le.radiance * (le.cos / (pmf * le.pdf_a * le.pdf_w));
+    if flux.is_zero() {
+        return None;
+    }
+    let ray = Ray::new(offset_ray_origin(le.p, le.p_error, le.n, le.w), le.w);
+    let walk = Walk::new(scene, TransportMode::Importance, ray, flux, scene.light_medium(id));
+    Some(EmittedPhoton { light: id, walk })
+}

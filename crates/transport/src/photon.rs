@@ -1,0 +1,177 @@
+use std::ops::Range;
+
+use bsdf::Lobes;
+use color::Lanes;
+use photons::{Photon, PhotonFlags};
+use sampling::{Domain, Sampler};
+use scene::Scene;
+
+use crate::{EmittedPhoton, Vertex, Walk, emit, emit_toward_targets};
+
+/// Which photons are wanted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PhotonPaths {
+    /// L (S|D)* D: all light that a surface receives.
+    Global,
+    /// L (S|D)* D (S|D)* D: all that has been scattered by a D surface before.
+    Indirect,
+    /// L S⁺ D, aimed at the specular objects.
+    Caustic,
+}
+
+/// A budget of photons.
+#[derive(Clone, Copy, Debug)]
+pub struct PhotonJob {
+    /// Which.
+    pub paths: PhotonPaths,
+    /// Photons emitted in the whole job, whatever becomes of them.
+    pub count: u64,
+    /// Seed of the render.
+    pub seed: u64,
+    /// Index of the map.
+    pub map_index: u64,
+    /// Scattering events on a whole path, at most; a photon needs one to be seen.
+    pub max_depth: u32,
+}
+
+/// Photons of a range of a job, in index order.
+#[derive(Clone, Debug, Default)]
+pub struct PhotonBatch {
+    /// Photons, where they landed on D surfaces.
+    pub photons: Vec<Photon>,
+    /// Where the energy went.
+    pub balance: PhotonBalance,
+    /// Photons that became non-finite: (index of the path, scattering events before), the first few.
+    pub nonfinite: Vec<(u64, u32)>,
+}
+
+/// Where the flux of a batch went, in W, the mean over lanes; shares of the whole job. In expectation
+/// emitted = absorbed + escaped + roulette + cut.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PhotonBalance {
+    /// Left the lights.
+    pub emitted: f64,
+    /// Taken by surfaces.
+    pub absorbed: f64,
+    /// Left the scene.
+    pub escaped: f64,
+    /// Ended by Russian roulette, less what its survivors were given.
+    pub roulette: f64,
+    /// Ended by the depth limit or because the job had no more use for the path.
+    pub cut: f64,
+}
+
+impl PhotonBalance {
+    /// The sum of two.
+    #[must_use]
+    pub fn plus(self, o: &Self) -> Self {
+        Self {
+            emitted: self.emitted + o.emitted,
+            absorbed: self.absorbed + o.absorbed,
+            escaped: self.escaped + o.escaped,
+            roulette: self.roulette + o.roulette,
+            cut: self.cut + o.cut,
+        }
+    }
+}
+
+/// Traces the photons of a range of path indices (Jensen 1996; Russian roulette: Arvo & Kirk 1990).
+pub fn trace_photons(scene: &Scene, job: &PhotonJob, range: Range<u64>) -> PhotonBatch {
+    let mut batch = PhotonBatch::default();
+    let share = 1.0 / job.count as f32;
+    for path in range {
+        let aimed = job.paths == PhotonPaths::Caustic;
+        let domain = if aimed { Domain::CausticPhoton } else { Domain::GlobalPhoton };
+        let mut sampler = Sampler::new(job.seed, job.map_index, domain, path);
+        let emitted =
+            if aimed { emit_toward_targets(scene, &mut sampler) } else { emit(scene, &mut sampler) };
+        let Some(EmittedPhoton { mut walk, .. }) = emitted else { continue };
+        walk.throughput *= share;
+        batch.balance.emitted += flux(&walk);
+        trace_one(&mut walk, job, path, &mut sampler, &mut batch);
+    }
+    batch
+}
+
+fn flux(walk: &Walk<'_>) -> f64 {
+    f64::from(walk.throughput.mean())
+}
+
+fn trace_one(
+    walk: &mut Walk<'_>,
+    job: &PhotonJob,
+    path: u64,
+    sampler: &mut Sampler,
+    batch: &mut PhotonBatch,
+) {
+    let mut diffuse_events = 0u32;
+    let mut specular_events = 0u32;
+    loop {
+        let Some(vertex) = walk.next_vertex() else {
+            batch.balance.escaped += flux(walk);
+            return;
+        };
+        if !walk.throughput.is_finite() {
+            batch.nonfinite.push((path, walk.depth));
+            return;
+        }
+        let is_d = vertex.bsdf.has_diffuse();
+        if is_d && wanted(job.paths, diffuse_events, specular_events) {
+            let caustic = wanted(PhotonPaths::Caustic, diffuse_events, specular_events);
+            batch.photons.push(photon(walk, &vertex, caustic));
+        }
+        if walk.depth + 1 >= job.max_depth {
+            batch.balance.cut += flux(walk);
+            return;
+        }
+        let allowed = match (job.paths, is_d) {
+            (PhotonPaths::Caustic, true) => Lobes::DELTA,
+            _ => Lobes::ALL,
+        };
+        let before = walk.throughput;
+        let before_flux = flux(walk);
+        let Some(scattered) = walk.scatter_lobes(&vertex, allowed, sampler) else {
+            match job.paths {
+                PhotonPaths::Caustic if is_d => batch.balance.cut += before_flux,
+                _ => batch.balance.absorbed += before_flux,
+            }
+            return;
+        };
+        let after_flux = flux(walk);
+        batch.balance.absorbed += before_flux - after_flux;
+        // Roulette on the albedo keeps the powers of all photons alike.
+        let survival = walk.throughput.max() / before.max();
+        let survived = walk.roulette(survival, sampler);
+        batch.balance.roulette += after_flux - if survived { flux(walk) } else { 0.0 };
+        if !survived {
+            return;
+        }
+        if is_d && !scattered.lobes.contains(Lobes::SPECULAR) {
+            diffuse_events += 1;
+        } else {
+            specular_events += 1;
+        }
+    }
+}
+
+fn wanted(paths: PhotonPaths, diffuse_events: u32, specular_events: u32) -> bool {
+    match paths {
+        PhotonPaths::Global => true,
+        PhotonPaths::Indirect => diffuse_events > 0,
+        PhotonPaths::Caustic => specular_events > 0 && diffuse_events == 0,
+    }
+}
+
+fn photon(walk: &Walk<'_>, vertex: &Vertex, caustic: bool) -> Photon {
+    let wi = vertex.wo;
+    let normal = if wi.dot(vertex.hit.ng) < 0.0 { -vertex.hit.ng } else { vertex.hit.ng };
+    let power: Lanes = walk.throughput;
+    Photon {
+        position: vertex.hit.p,
+        direction: wi,
+        normal,
+        power,
+        depth: walk.depth.min(255) as u8,
+        flags: if caustic { PhotonFlags::CAUSTIC } else { PhotonFlags::NONE },
+    }
+}

@@ -1,0 +1,231 @@
+use bsdf::{Bsdf, DeltaLobe, Lobes, TransportMode};
+use color::Lanes;
+use math::{Ray, Vec3};
+use sampling::Sampler;
+use scene::{Boundary, LightId, MediumStack, Scene, SurfaceInteraction};
+
+/// A random walk through the scene, from the camera or from a light. The loop stays with the integrator:
+///
+/// ```text
+/// while let Some(vertex) = walk.next_vertex() { …; if walk.scatter(&vertex, &mut sampler).is_none() { break } }
+/// ```
+///
+/// Throughput is β: from the camera, radiance arriving along the ray times β is what the film receives; from a
+/// light, β is the flux that the path carries, in W per lane.
+#[derive(Clone, Copy, Debug)]
+pub struct Walk<'s> {
+    scene: &'s Scene,
+    mode: TransportMode,
+    /// The ray to be followed next; unit direction.
+    pub ray: Ray,
+    /// β.
+    pub throughput: Lanes,
+    /// Scattering events so far.
+    pub depth: u32,
+    media: MediumStack,
+    /// Width of the ray's footprint at the last vertex, and its growth per length.
+    footprint: f32,
+    spread: f32,
+    /// Square of the relative index that β was scaled by at refractions: radiance is not lost there.
+    eta_scale: f32,
+    /// Where the last scattering happened and how, for weights of what the ray meets.
+    pub(crate) last: Option<Scattered>,
+}
+
+/// A point that a walk reached.
+#[derive(Clone, Copy, Debug)]
+pub struct Vertex {
+    /// The surface.
+    pub hit: SurfaceInteraction,
+    /// Its scattering function.
+    pub bsdf: Bsdf,
+    /// Toward where the walk came from.
+    pub wo: Vec3,
+    /// Width of the ray there, in units of length.
+    pub footprint: f32,
+}
+
+/// A scattering event.
+#[derive(Clone, Copy, Debug)]
+pub struct Scattered {
+    /// The point from which the ray went on.
+    pub p: Vec3,
+    /// Its geometric normal.
+    pub n: Vec3,
+    /// Density of the direction per steradian; of no meaning after a delta lobe.
+    pub pdf_w: f32,
+    /// Kind of the lobe that was drawn.
+    pub lobes: Lobes,
+    /// Whether light sampling could have found what the ray meets: the event had a non-delta part.
+    pub lit: bool,
+}
+
+impl<'s> Walk<'s> {
+    /// A walk that starts at the camera (`Radiance`) or at a light (`Importance`).
+    pub fn new(
+        scene: &'s Scene,
+        mode: TransportMode,
+        ray: Ray,
+        throughput: Lanes,
+        media: MediumStack,
+    ) -> Self {
+        Self {
+            scene,
+            mode,
+            ray,
+            throughput,
+            depth: 0,
+            media,
+            footprint: 0.0,
+            spread: 0.0,
+            eta_scale: 1.0,
+            last: None,
+        }
+    }
+
+    /// Starts the footprint: its width at the start and growth per unit of length.
+    pub fn with_footprint(mut self, width: f32, spread: f32) -> Self {
+        self.footprint = width;
+        self.spread = spread;
+        self
+    }
+
+    /// The next surface that is one: boundaries between equal dielectrics are passed. `None`: the walk left the
+    /// scene along `ray`.
+    #[inline]
+    pub fn next_vertex(&mut self) -> Option<Vertex> {
+        // A bound only against geometry that is degenerate: each round passes one invisible boundary.
+        for _ in 0..4096 {
+            let hit = self.scene.intersect(&self.ray)?;
+            self.footprint += self.spread * hit.t;
+            let eta = match self.scene.boundary(&hit, &self.media, self.ray.direction) {
+                None => 1.0,
+                Some(Boundary::Interface { eta }) => eta,
+                Some(Boundary::Invisible) => {
+                    // A shadow ray would have stopped here.
+                    if let Some(last) = &mut self.last {
+                        last.lit = false;
+                    }
+                    self.cross(&hit);
+                    self.ray = hit.spawn_ray(self.ray.direction);
+                    continue;
+                }
+            };
+            let wo = -self.ray.direction;
+            let bsdf = self.scene.bsdf(&hit, wo, eta, self.footprint);
+            return Some(Vertex { hit, bsdf, wo, footprint: self.footprint });
+        }
+        None
+    }
+
+    /// Moves the medium stack through the boundary at `hit`.
+    fn cross(&mut self, hit: &SurfaceInteraction) {
+        if let Some(medium) = self.scene.medium(hit) {
+            self.media = self.media.crossed(medium, self.ray.direction.dot(hit.ng) < 0.0);
+        }
+    }
+
+    /// Continues in a direction drawn from the whole BSDF. `None`: nothing is scattered.
+    #[inline]
+    pub fn scatter(&mut self, vertex: &Vertex, sampler: &mut Sampler) -> Option<Scattered> {
+        self.scatter_lobes(vertex, Lobes::ALL, sampler)
+    }
+
+    /// The same from some lobes only.
+    pub fn scatter_lobes(
+        &mut self,
+        vertex: &Vertex,
+        lobes: Lobes,
+        sampler: &mut Sampler,
+    ) -> Option<Scattered> {
+        let u_lobe = sampler.next_1d();
+        let u = sampler.next_2d();
+        self.scatter_with(vertex, lobes, u_lobe, u)
+    }
+
+    /// The same from given numbers.
+    #[inline]
+    pub fn scatter_with(
+        &mut self,
+        vertex: &Vertex,
+        lobes: Lobes,
+        u_lobe: f32,
+        u: [f32; 2],
+    ) -> Option<Scattered> {
+        let sample = vertex.bsdf.sample_lobes(vertex.wo, lobes, u_lobe, u, self.mode)?;
+        self.follow(vertex, sample.wi, sample.weight, sample.lobes, sample.eta);
+        // A density is only of use where light sampling competes.
+        let scattered = Scattered {
+            p: vertex.hit.p,
+            n: vertex.hit.ng,
+            pdf_w: sample.pdf_w,
+            lobes: sample.lobes,
+            lit: !sample.lobes.contains(Lobes::SPECULAR),
+        };
+        self.last = Some(scattered);
+        (!self.throughput.is_zero()).then_some(scattered)
+    }
+
+    /// Continues along one delta lobe, without choosing: its weight is all of f·|cos|.
+    pub fn follow_delta(&mut self, vertex: &Vertex, lobe: &DeltaLobe) {
+        self.follow(vertex, lobe.wi, lobe.weight, lobe.lobes, lobe.eta);
+        self.last =
+            Some(Scattered { p: vertex.hit.p, n: vertex.hit.ng, pdf_w: 0.0, lobes: lobe.lobes, lit: false });
+    }
+
+    #[inline]
+    fn follow(&mut self, vertex: &Vertex, wi: Vec3, weight: Lanes, lobes: Lobes, eta: f32) {
+        self.throughput *= weight;
+        match self.mode {
+            TransportMode::Importance => self.throughput *= vertex.bsdf.shading_correction(vertex.wo, wi),
+            TransportMode::Radiance => self.eta_scale *= eta * eta,
+        }
+        if lobes.contains(Lobes::TRANSMISSION) {
+            self.cross(&vertex.hit);
+        }
+        if !lobes.contains(Lobes::SPECULAR) {
+            // A wide lobe: the cone that it opens is that of a texture seen once more, not of a pixel.
+            self.spread = self.spread.max(0.05);
+        }
+        self.depth += 1;
+        self.ray = vertex.hit.spawn_ray(wi);
+    }
+
+    /// Russian roulette: survives with probability min(1, `survival`), which throughput is divided by.
+    #[inline]
+    pub fn roulette(&mut self, survival: f32, sampler: &mut Sampler) -> bool {
+        if survival >= 1.0 {
+            return true;
+        }
+        if sampler.next_1d() >= survival {
+            return false;
+        }
+        self.throughput = self.throughput / survival;
+        true
+    }
+
+    /// Chance of survival that keeps throughput even: its greatest lane, without the scaling at refractions.
+    #[inline]
+    pub fn survival(&self) -> f32 {
+        self.throughput.max() * self.eta_scale
+    }
+
+    /// The scene walked through.
+    pub fn scene(&self) -> &'s Scene {
+        self.scene
+    }
+
+    /// The last scattering event; `None` before the first.
+    pub fn last(&self) -> Option<&Scattered> {
+        self.last.as_ref()
+    }
+}
+
+impl Vertex {
+    /// Radiance that the surface itself sends toward `wo`.
+    pub fn emitted(&self, scene: &Scene) -> Option<(LightId, Lanes)> {
+        let id = self.hit.light?;
+        let radiance = scene.light(id).emitted(self.hit.authored_ng(), self.wo);
+        (!radiance.is_zero()).then_some((id, radiance))
+    }
+}
