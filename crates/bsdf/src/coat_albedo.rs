@@ -2,7 +2,10 @@ use std::array::from_fn;
 use std::sync::LazyLock;
 
 use crate::fresnel::fresnel_dielectric;
-use crate::ggx_albedo::{ALPHA_NODES, MU_NODES, for_each_sample, hemispherical_mean, lerp, locate};
+use crate::ggx_albedo::{
+    ALPHA_NODES, MEAN_NODES, Place, Rows, TAU_NODES, alpha_node, for_each_sample, hemispherical_mean, lerp,
+    locate, locate_alpha,
+};
 
 /// Nodes in (η − 1)/(η + 1), evenly spaced over [0, [`T_MAX`]].
 const ETA_NODES: usize = 16;
@@ -11,11 +14,11 @@ pub(crate) const ETA_MAX: f32 = 4.0;
 const T_MAX: f32 = (ETA_MAX - 1.0) / (ETA_MAX + 1.0);
 
 /// Directional albedo E(μ, α, η) of a single reflection off a rough dielectric of relative index η ≥ 1, exact
-/// Fresnel included, tabulated at first use (some tens of milliseconds) and interpolated linearly in √μ, √α and
-/// (η − 1)/(η + 1).
+/// Fresnel included, tabulated at first use (some tens of milliseconds) as its ratio to F(μ, η), which is
+/// interpolated linearly in τ and √α (see [`crate::ggx_albedo`]) and (η − 1)/(η + 1).
 pub(crate) struct Table {
-    rows: Vec<[[f32; MU_NODES]; ALPHA_NODES]>,
-    means: Vec<[f32; ALPHA_NODES]>,
+    ratios: Vec<Rows>,
+    means: Vec<[f32; MEAN_NODES]>,
 }
 
 static TABLE: LazyLock<Table> = LazyLock::new(Table::compute);
@@ -32,25 +35,32 @@ impl Table {
             let t = T_MAX * i as f32 / (ETA_NODES - 1) as f32;
             (1.0 + t) / (1.0 - t)
         });
-        let mut rows = vec![[[0.0; MU_NODES]; ALPHA_NODES]; ETA_NODES];
-        for m in 0..MU_NODES {
-            let mu = (m as f32 / (MU_NODES - 1) as f32).powi(2);
-            for (table, &eta) in rows.iter_mut().zip(&etas) {
-                table[0][m] = fresnel_dielectric(mu, eta);
-            }
-            for a in 1..ALPHA_NODES {
+        let mut ratios = vec![[[0.0; TAU_NODES]; ALPHA_NODES]; ETA_NODES];
+        for a in 0..ALPHA_NODES {
+            for t in 0..TAU_NODES {
                 let mut sums = [0.0; ETA_NODES];
-                let n = for_each_sample(m, a, |w, cos_h| {
-                    for (sum, &eta) in sums.iter_mut().zip(&etas) {
-                        *sum += f64::from(w * fresnel_dielectric(cos_h, eta));
+                let (mu, n) = for_each_sample(t, alpha_node(a, ALPHA_NODES), |w, cos_h| {
+                    if w > 0.0 {
+                        for (sum, &eta) in sums.iter_mut().zip(&etas) {
+                            *sum += f64::from(w * fresnel_dielectric(cos_h, eta));
+                        }
                     }
                 });
-                for (table, sum) in rows.iter_mut().zip(sums) {
-                    table[a][m] = ((sum / n) as f32).min(1.0);
+                for ((rows, sum), &eta) in ratios.iter_mut().zip(sums).zip(&etas) {
+                    let f = fresnel_dielectric(mu, eta);
+                    rows[a][t] = if f > 0.0 { (sum / n) as f32 / f } else { 1.0 };
                 }
             }
         }
-        Self { means: rows.iter().map(|t| t.map(|row| hemispherical_mean(&row))).collect(), rows }
+        let mean = |rows: &Rows, eta: f32, alpha: f32| {
+            hemispherical_mean(|mu| Place::new(mu, alpha).of(rows) * fresnel_dielectric(mu, eta))
+        };
+        let means = ratios
+            .iter()
+            .zip(etas)
+            .map(|(rows, eta)| from_fn(|a| mean(rows, eta, alpha_node(a, MEAN_NODES))))
+            .collect();
+        Self { ratios, means }
     }
 
     fn locate_eta(eta: f32) -> (usize, f32) {
@@ -59,19 +69,17 @@ impl Table {
 
     /// E(μ, α, η).
     pub fn at(&self, mu: f32, alpha: f32, eta: f32) -> f32 {
-        let (m, fm) = locate(mu.max(0.0).sqrt(), MU_NODES);
-        let (a, fa) = locate(alpha.max(0.0).sqrt(), ALPHA_NODES);
+        let place = Place::new(mu, alpha);
         let (e, fe) = Self::locate_eta(eta);
-        let row = |r: &[f32; MU_NODES]| lerp(r[m], r[m + 1], fm);
-        let plane = |p: &[[f32; MU_NODES]; ALPHA_NODES]| lerp(row(&p[a]), row(&p[a + 1]), fa);
-        lerp(plane(&self.rows[e]), plane(&self.rows[e + 1]), fe)
+        let ratio = lerp(place.of(&self.ratios[e]), place.of(&self.ratios[e + 1]), fe);
+        (ratio * fresnel_dielectric(mu, eta)).min(1.0)
     }
 
     /// 2∫E(μ, α, η) μ dμ.
     pub fn mean(&self, alpha: f32, eta: f32) -> f32 {
-        let (a, fa) = locate(alpha.max(0.0).sqrt(), ALPHA_NODES);
+        let (a, fa) = locate_alpha(alpha, MEAN_NODES);
         let (e, fe) = Self::locate_eta(eta);
-        let row = |r: &[f32; ALPHA_NODES]| lerp(r[a], r[a + 1], fa);
+        let row = |r: &[f32; MEAN_NODES]| lerp(r[a], r[a + 1], fa);
         lerp(row(&self.means[e]), row(&self.means[e + 1]), fe)
     }
 }

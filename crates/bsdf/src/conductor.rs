@@ -1,12 +1,10 @@
 use color::Lanes;
-use math::{FRAC_1_PI, Vec3};
+use math::{FRAC_1_PI, PI, Vec3, spherical_direction};
 
 use crate::bsdf::BsdfSample;
-use crate::cosine::cosine_hemisphere;
-use crate::diffuse;
 use crate::fresnel::{fresnel_conductor, fresnel_conductor_mean};
-use crate::ggx::{Ggx, half};
-use crate::ggx_albedo::Table;
+use crate::ggx::{ALPHA_MIN, Ggx, half};
+use crate::ggx_albedo::Loss;
 use crate::lobes::Lobes;
 
 pub(crate) const GLOSSY: Lobes = Lobes::GLOSSY.union(Lobes::REFLECTION);
@@ -25,10 +23,28 @@ pub(crate) struct Rough {
 
 /// The constant factor of f_ms: F_ms / (π (1 − E_mean)).
 pub(crate) fn multiple(n: Lanes, k: Lanes, alpha: f32) -> Lanes {
-    let e = Table::get().mean(alpha);
+    let lost = Loss::get().mean(alpha);
     let f = fresnel_conductor_mean(n, k);
-    let f_ms = Lanes(f.0 * f.0 * e / (Lanes::ONE - f * (1.0 - e)).0.max(math::Vec4::splat(1e-6)));
-    f_ms * (FRAC_1_PI / (1.0 - e).max(1e-6))
+    let f_ms = Lanes(f.0 * f.0 * (1.0 - lost) / (Lanes::ONE - f * lost).0);
+    f_ms * (FRAC_1_PI / lost)
+}
+
+/// The loss 1 − E(μ) falls like (α/μ)² above μ ≈ 2α and is level below. So the lobe of further bounces, loss · μ,
+/// is followed by μ/(μ² + b²), b = 2α, whose integral inverts in closed form. A cosine lobe would leave weights of
+/// 1/loss at small α.
+fn multiple_b2(alpha: f32) -> f32 {
+    4.0 * alpha.max(ALPHA_MIN).powi(2)
+}
+
+fn sample_multiple(u: [f32; 2], alpha: f32) -> Vec3 {
+    let b2 = multiple_b2(alpha);
+    let mu2 = b2 * (u[0] * (1.0 / b2).ln_1p()).exp_m1();
+    spherical_direction(mu2.clamp(0.0, 1.0).sqrt(), 2.0 * PI * u[1])
+}
+
+fn multiple_pdf_w(mu: f32, alpha: f32) -> f32 {
+    let b2 = multiple_b2(alpha);
+    mu / ((mu * mu + b2) * (1.0 / b2).ln_1p() * PI)
 }
 
 impl Rough {
@@ -37,27 +53,26 @@ impl Rough {
         let ggx = Ggx::new(self.alpha);
         let h = half(wo, wi);
         let single = fresnel_conductor(wo.dot(h), self.n, self.k) * (ggx.d(h) * ggx.visibility(wo.z, wi.z));
-        let table = Table::get();
-        let lost = (1.0 - table.at(wo.z, self.alpha)) * (1.0 - table.at(wi.z, self.alpha));
-        single + self.multiple * lost
+        let loss = Loss::get();
+        single + self.multiple * (loss.at(wo.z, self.alpha) * loss.at(wi.z, self.alpha))
     }
 
-    /// Probability of the cosine lobe: the share that a single bounce loses.
+    /// Probability of the lobe of further bounces: the share that a single bounce loses.
     #[inline]
     fn p_multiple(&self, wo: Vec3) -> f32 {
-        1.0 - Table::get().at(wo.z, self.alpha)
+        Loss::get().at(wo.z, self.alpha)
     }
 
     #[inline]
     pub fn pdf_w(&self, wo: Vec3, wi: Vec3) -> f32 {
         let p = self.p_multiple(wo);
-        p * diffuse::pdf_w(wi.z) + (1.0 - p) * Ggx::new(self.alpha).pdf_w(wo, half(wo, wi))
+        p * multiple_pdf_w(wi.z, self.alpha) + (1.0 - p) * Ggx::new(self.alpha).pdf_w(wo, half(wo, wi))
     }
 
     #[inline]
     pub fn sample(&self, wo: Vec3, u_lobe: f32, u: [f32; 2]) -> Option<BsdfSample> {
         let wi = if u_lobe < self.p_multiple(wo) {
-            cosine_hemisphere(u)
+            sample_multiple(u, self.alpha)
         } else {
             Ggx::new(self.alpha).sample(wo, u)
         };
@@ -76,10 +91,9 @@ impl Rough {
 
     /// Directional albedo, the single bounce taken at the mirror's angle.
     pub fn albedo(&self, cos_o: f32) -> Lanes {
-        let table = Table::get();
-        let e = table.at(cos_o, self.alpha);
-        let e_mean = table.mean(self.alpha);
-        let f_ms = self.multiple * (math::PI * (1.0 - e_mean));
-        fresnel_conductor(cos_o, self.n, self.k) * e + f_ms * (1.0 - e)
+        let loss = Loss::get();
+        let lost = loss.at(cos_o, self.alpha);
+        let f_ms = self.multiple * (PI * loss.mean(self.alpha));
+        fresnel_conductor(cos_o, self.n, self.k) * (1.0 - lost) + f_ms * lost
     }
 }

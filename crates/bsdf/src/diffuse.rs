@@ -21,5 +21,6 @@ pub(crate) fn pdf_w(cos_i: f32) -> f32 {
 #[inline]
 pub(crate) fn sample(albedo: Lanes, u: [f32; 2]) -> Option<BsdfSample> {
     let wi = cosine_hemisphere(u);
-    Some(BsdfSample { wi, weight: albedo, pdf_w: pdf_w(wi.z), lobes: LOBES, eta: 1.0 })
+    // The rim of the hemisphere has density 0.
+    (wi.z > 0.0).then(|| BsdfSample { wi, weight: albedo, pdf_w: pdf_w(wi.z), lobes: LOBES, eta: 1.0 })
 }

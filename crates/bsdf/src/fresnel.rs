@@ -124,7 +124,8 @@ mod tests {
         for i in 1..100 {
             let cos_i = i as f32 / 100.0;
             let cos_t = refracted_cosine(cos_i, 1.7).unwrap();
-            assert!((fresnel_dielectric(cos_i, 1.7) - fresnel_dielectric(cos_t, 1.0 / 1.7)).abs() < 2e-6);
+            let difference = fresnel_dielectric(cos_i, 1.7) - fresnel_dielectric(cos_t, 1.0 / 1.7);
+            assert!(difference.abs() < 2e-6 / cos_i, "ill-conditioned towards grazing");
         }
     }
 
@@ -134,8 +135,8 @@ mod tests {
         // k 3.8, 2.4, 1.88 (Johnson & Christy 1972, rounded).
         let (n, k) = (Lanes::rgb(0.16, 0.42, 1.51), Lanes::rgb(3.8, 2.4, 1.88));
         let f = fresnel_conductor(1.0, n, k).to_rgb();
-        for (f, expected) in f.iter().zip([0.959_9, 0.785_4, 0.386_1]) {
-            assert!((f - expected).abs() < 1e-3, "{f} {expected}");
+        for (f, expected) in f.iter().zip([15.1456 / 15.7856, 6.0964 / 7.7764, 3.7945 / 9.8345]) {
+            assert!((f - expected).abs() < 1e-6, "{f} {expected}");
         }
         assert_eq!(fresnel_conductor(0.0, n, k).to_rgb(), [1.0; 3]);
     }

@@ -37,11 +37,14 @@ pub struct Settings {
     pub draws: usize,
     /// log₂ of the number of cells.
     pub levels: u32,
+    /// Relative difference that rounding explains between what comes with a draw (its density, its weight) and what
+    /// is asked for its direction.
+    pub rounding: f64,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { seed: 1, pilot: 1 << 13, draws: 400_000, levels: 6 }
+        Self { seed: 1, pilot: 1 << 12, draws: 400_000, levels: 6, rounding: 5e-3 }
     }
 }
 

@@ -81,8 +81,8 @@ impl Partition {
 
 /// Pilot samples in one piece of the quadrature, at most.
 const POINTS_PER_PIECE: usize = 4;
-/// Bisections along jumps of the density.
-const DEPTH: u32 = 6;
+/// Quarterings of a piece.
+const DEPTH: u32 = 12;
 
 fn integrate_guided(f: &impl Fn([f64; 2]) -> f64, r: &Rect, points: &mut [[f64; 2]], tolerance: f64) -> f64 {
     if points.len() > POINTS_PER_PIECE {

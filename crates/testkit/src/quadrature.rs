@@ -28,11 +28,11 @@ fn refine(f: &impl Fn([f64; 2]) -> f64, r: &Rect, coarse: f64, tolerance: f64, d
     if depth == 0 || (fine - coarse).abs() <= tolerance {
         return fine;
     }
-    quads.iter().zip(values).map(|(q, v)| refine(f, q, v, 0.5 * tolerance, depth - 1)).sum()
+    quads.iter().zip(values).map(|(q, v)| refine(f, q, v, tolerance, depth - 1)).sum()
 }
 
-/// ∫f over a rectangle, by adaptive quadrature to the absolute `tolerance` for smooth integrands; along jumps it
-/// stops after `depth` bisections.
+/// ∫f over a rectangle, by adaptive quadrature: pieces are quartered until that changes them by no more than
+/// `tolerance` (absolute, each: along jumps errors of either sign add up like their root), at most `depth` times.
 pub fn integrate_rect(f: &impl Fn([f64; 2]) -> f64, r: &Rect, tolerance: f64, depth: u32) -> f64 {
     refine(f, r, lobatto(f, r), tolerance, depth)
 }
