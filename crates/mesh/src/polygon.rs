@@ -16,9 +16,11 @@ pub(crate) fn triangulate(corners: &[Vec3], mut emit: impl FnMut([usize; 3])) {
     let normal = newell(corners);
     let p: Vec<DVec3> = corners.iter().map(|p| p.as_dvec3()).collect();
     let mut left: Vec<usize> = (0..n).collect();
+    // Where the last ear was: the search goes on from there, so that slivers do not pile up at one corner.
+    let mut from = 0;
     while left.len() > 3 {
         let m = left.len();
-        let ear = (0..m).find(|&i| {
+        let ear = (0..m).map(|i| (from + i) % m).find(|&i| {
             let [a, b, c] = [left[(i + m - 1) % m], left[i], left[(i + 1) % m]];
             area(normal, p[a], p[b], p[c]) > 0.0
                 && left.iter().filter(|&&q| q != a && q != b && q != c).all(|&q| {
@@ -26,16 +28,19 @@ pub(crate) fn triangulate(corners: &[Vec3], mut emit: impl FnMut([usize; 3])) {
                     p[q] == p[a] || p[q] == p[b] || p[q] == p[c] || !inside(normal, p[a], p[b], p[c], p[q])
                 })
         });
-        // Where the polygon crosses itself no ear is left: cut anywhere.
-        let i = ear.unwrap_or(0);
+        // Where the polygon crosses itself no ear is left: what remains becomes a fan.
+        let Some(i) = ear else { break };
         emit([left[(i + m - 1) % m], left[i], left[(i + 1) % m]]);
         left.remove(i);
+        from = i % (m - 1);
     }
-    emit([left[0], left[1], left[2]]);
+    for k in 1..left.len() - 1 {
+        emit([left[0], left[k], left[k + 1]]);
+    }
 }
 
 /// Ear clipping is cubic at worst; beyond this a file could stall the reader.
-pub(crate) const MAX_CLIPPED: usize = 256;
+pub(crate) const MAX_CLIPPED: usize = 128;
 
 /// Twice the area vector (Newell's method).
 fn newell(corners: &[Vec3]) -> DVec3 {
@@ -78,6 +83,21 @@ mod tests {
     fn a_square_is_a_fan() {
         let (t, _) = cut(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
         assert_eq!(t, [[0, 1, 2], [0, 2, 3]]);
+    }
+
+    #[test]
+    fn polygons_that_cross_themselves_or_are_huge_still_end() {
+        let star: Vec<[f32; 2]> = (0..101)
+            .map(|i| {
+                let (sin, cos) = (std::f32::consts::TAU * (i * 50) as f32 / 101.0).sin_cos();
+                [cos, sin]
+            })
+            .collect();
+        assert_eq!(cut(&star).0.len(), 99);
+        let spikes: Vec<[f32; 2]> =
+            (0..1000).map(|i| [i as f32, if i % 2 == 0 { 0.0 } else { 100.0 }]).collect();
+        assert_eq!(cut(&spikes).0.len(), 998);
+        assert_eq!(cut(&[[0.0, 0.0]; 7]).0.len(), 5);
     }
 
     #[test]
