@@ -70,12 +70,7 @@ struct Unweighted {
 
 impl Sums {
     fn add(&mut self, sample: &PixelSample) {
-        let parts = [sample.direct, sample.caustic, sample.indirect];
-        for (sum, part) in self.radiance.iter_mut().zip(parts) {
-            for (s, v) in sum.iter_mut().zip(part) {
-                s.add(sample.weight * v);
-            }
-        }
+        add_parts(&mut self.radiance, sample, sample.weight);
         let luminance = sample.weight * color::luminance(sample.beauty());
         self.square += units((luminance * luminance).min(MAX_SQUARE), SQUARE_BITS);
         for i in 0..3 {
@@ -104,6 +99,15 @@ fn nearer(a: f32, b: f32) -> f32 {
         (true, true) => a.min(b),
         (true, false) => a,
         _ => b,
+    }
+}
+
+fn add_parts(to: &mut [[Fixed96; 3]; 3], sample: &PixelSample, weight: f32) {
+    let parts = [sample.direct, sample.caustic, sample.indirect];
+    for (sum, part) in to.iter_mut().zip(parts) {
+        for (s, v) in sum.iter_mut().zip(part) {
+            s.add(weight * v);
+        }
     }
 }
 
@@ -160,10 +164,7 @@ impl Film {
             sums.add(sample);
         }
         for (sums, sample) in self.unweighted.iter_mut().zip(pass.pixels()) {
-            let parts = [sample.direct, sample.caustic, sample.indirect];
-            for (s, v) in sums.radiance.iter_mut().flatten().zip(parts.into_iter().flatten()) {
-                s.add(v);
-            }
+            add_parts(&mut sums.radiance, sample, 1.0);
             sums.weight.add(sample.weight);
             self.max_weight = self.max_weight.max(sample.weight.abs());
         }
