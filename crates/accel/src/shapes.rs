@@ -41,7 +41,7 @@ impl Sphere {
         let a = d.length_squared();
         let b = -f.dot(d);
         let discriminant = r * r - (f + d * (b / a)).length_squared();
-        if !(discriminant >= 0.0) {
+        if discriminant.is_nan() || discriminant < 0.0 {
             return None;
         }
         let root = (a * discriminant).sqrt();

@@ -4,7 +4,7 @@
 use math::{Bounds3, Vec3, Vec4};
 
 use super::CHUNK;
-use crate::node::Kind;
+use crate::node::{Kind, LANES};
 
 /// A primitive's box; what it is lies in the fourth lanes.
 #[derive(Clone, Copy, Debug)]
@@ -58,11 +58,11 @@ impl Box4 {
         self.max = self.max.max(max);
     }
 
-    /// Half of the surface; NaN or negative infinity never reach a comparison that they could win.
+    /// Half of the surface; ∞ for the empty box.
     #[inline(always)]
     fn half_area(&self) -> f32 {
         let s = self.max - self.min;
-        s.x * s.y + s.y * s.z + s.z * s.x
+        s.x * (s.y + s.z) + s.y * s.z
     }
 }
 
@@ -98,7 +98,6 @@ pub(super) fn children(tree: &[BinaryNode], node: usize) -> (usize, usize) {
 /// Below this depth a node is cut into halves, whatever it costs, so that the depth stays below
 /// `MAX_SAH_DEPTH` + 32.
 const MAX_SAH_DEPTH: u32 = 44;
-const MAX_BINS: usize = 32;
 
 /// The tree in preorder; empty where there is nothing. Reorders the primitives.
 pub(super) fn build(primitives: &mut [Primitive]) -> Vec<BinaryNode> {
@@ -151,12 +150,23 @@ fn subtree(primitives: &mut [Primitive], nodes: &mut [BinaryNode], first: u32, e
     if count == 1 {
         return;
     }
+    if count == 2 {
+        for (i, p) in primitives.iter().enumerate() {
+            let (min, max) = (p.min.truncate(), p.max.truncate());
+            nodes[1 + i] = BinaryNode { min, count: 1, max, first: first + i as u32 };
+        }
+        return;
+    }
     let split = if depth >= MAX_SAH_DEPTH {
         None
     } else if count <= SWEEP {
-        sweep_split(primitives)
+        sweep_split(primitives, &extent)
     } else {
-        binned_split(primitives, &extent)
+        match count {
+            0..=64 => binned_split::<8>(primitives, &extent),
+            65..=1024 => binned_split::<16>(primitives, &extent),
+            _ => binned_split::<32>(primitives, &extent),
+        }
     };
     let (middle, left, right) = split.unwrap_or_else(|| {
         let (l, r) = primitives.split_at(count / 2);
@@ -184,58 +194,71 @@ fn cost_of(count: u32) -> f32 {
 /// Greatest count for which every order along every axis is tried.
 const SWEEP: usize = 8;
 
-/// The best of all cuts of the primitives sorted along one axis.
-fn sweep_split(primitives: &mut [Primitive]) -> Option<(usize, Extent, Extent)> {
+/// The best of all cuts of the primitives sorted along one axis; along the longest only, where all of them fit one
+/// pack anyway.
+fn sweep_split(primitives: &mut [Primitive], extent: &Extent) -> Option<(usize, Extent, Extent)> {
     let count = primitives.len();
-    if count == 2 {
-        return Some((1, Extent::of(&primitives[..1]), Extent::of(&primitives[1..])));
+    let mut axes = 0..3;
+    if count <= LANES {
+        let size = extent.centers.max - extent.centers.min;
+        let longest =
+            if size.x >= size.y && size.x >= size.z { 0 } else { 2 - usize::from(size.y >= size.z) };
+        axes = longest..longest + 1;
     }
-    let mut best = (f32::INFINITY, 0, 0);
-    let mut sorted = [[0u8; SWEEP]; 3];
-    for axis in 0..3 {
-        let order = &mut sorted[axis][..count];
-        let mut keys = [0f32; SWEEP];
-        for (i, p) in primitives.iter().enumerate() {
-            keys[i] = p.center2()[axis];
-            order[i] = i as u8;
+    let mut best = (f32::INFINITY, [0; SWEEP], 0);
+    for axis in axes {
+        let mut keys = [f32::INFINITY; SWEEP];
+        for (key, p) in keys.iter_mut().zip(primitives.iter()) {
+            *key = p.center2()[axis];
         }
-        // Insertion sort: stable, and quick for so few.
-        for i in 1..count {
-            let mut j = i;
-            while j > 0 && keys[order[j] as usize] < keys[order[j - 1] as usize] {
-                order.swap(j, j - 1);
-                j -= 1;
-            }
-        }
+        let order = order_of(&keys);
         let mut right_areas = [0f32; SWEEP];
         let mut right = Box4::EMPTY;
         for i in (1..count).rev() {
-            let p = &primitives[order[i] as usize];
+            let p = &primitives[order[i]];
             right.grow(p.min, p.max);
             right_areas[i] = right.half_area();
         }
         let mut left = Box4::EMPTY;
         for i in 1..count {
-            let p = &primitives[order[i - 1] as usize];
+            let p = &primitives[order[i - 1]];
             left.grow(p.min, p.max);
-            // Blocks first, then single primitives, so that equal numbers of blocks are told apart.
+            // Packs first, then single primitives, so that equal numbers of packs are told apart.
             let (l, r) = (i as u32, (count - i) as u32);
             let cost = left.half_area() * (cost_of(l) + 0.1 * l as f32)
                 + right_areas[i] * (cost_of(r) + 0.1 * r as f32);
             if cost < best.0 {
-                best = (cost, axis, i);
+                best = (cost, order, i);
             }
         }
     }
-    if best.2 == 0 {
+    let (_, order, cut) = best;
+    if cut == 0 {
         return None;
     }
     let mut copy = [primitives[0]; SWEEP];
     copy[..count].copy_from_slice(primitives);
-    for (p, &i) in primitives.iter_mut().zip(&sorted[best.1]) {
-        *p = copy[i as usize];
+    for (p, &i) in primitives.iter_mut().zip(&order) {
+        *p = copy[i];
     }
-    Some((best.2, Extent::of(&primitives[..best.2]), Extent::of(&primitives[best.2..])))
+    Some((cut, Extent::of(&primitives[..cut]), Extent::of(&primitives[cut..])))
+}
+
+/// The indices of the keys (none is NaN) in ascending order, equal ones as they stand. Counts for each key those
+/// before it, without a branch.
+#[inline(always)]
+fn order_of(keys: &[f32; SWEEP]) -> [usize; SWEEP] {
+    let mut ranks = [0u32; SWEEP];
+    for (j, &other) in keys.iter().enumerate() {
+        for i in 0..SWEEP {
+            ranks[i] += u32::from(if j < i { other <= keys[i] } else { other < keys[i] });
+        }
+    }
+    let mut order = [0; SWEEP];
+    for (i, &rank) in ranks.iter().enumerate() {
+        order[rank as usize & (SWEEP - 1)] = i;
+    }
+    order
 }
 
 /// Maps centres to bins, the same way wherever it is asked.
@@ -243,7 +266,6 @@ fn sweep_split(primitives: &mut [Primitive]) -> Option<(usize, Extent, Extent)> 
 struct Binning {
     origin: Vec4,
     scale: Vec4,
-    last: Vec4,
 }
 
 impl Binning {
@@ -253,39 +275,36 @@ impl Binning {
             let k = bins as f32 * 0.99999 / s;
             if s > 0.0 && k.is_finite() { k } else { 0.0 }
         };
-        let scale = Vec4::new(scale(size.x), scale(size.y), scale(size.z), 0.0);
-        Self { origin: centers.min, scale, last: Vec4::splat((bins - 1) as f32) }
+        Self { origin: centers.min, scale: Vec4::new(scale(size.x), scale(size.y), scale(size.z), 0.0) }
     }
 
+    /// A bin for each axis, below `BINS`, a power of two.
     #[inline(always)]
-    fn bins(&self, center2: Vec4) -> [usize; 3] {
-        let b = ((center2 - self.origin) * self.scale).min(self.last);
-        // Casts saturate: a NaN (of the fourth lane, or of an overflow) is bin 0.
-        [b.x as usize, b.y as usize, b.z as usize]
+    fn bins<const BINS: usize>(&self, center2: Vec4) -> [usize; 3] {
+        // Around 1.5·2²³ the lowest bits count in ones: quicker than a conversion, which saturates.
+        let b = (center2 - self.origin) * self.scale - 0.5 + 12_582_912.0;
+        [b.x, b.y, b.z].map(|b| b.to_bits() as usize & (BINS - 1))
     }
 }
 
-fn binned_split(primitives: &mut [Primitive], extent: &Extent) -> Option<(usize, Extent, Extent)> {
-    let bins = match primitives.len() {
-        0..=64 => 8,
-        65..=1024 => 16,
-        _ => MAX_BINS,
-    };
-    let binning = Binning::new(&extent.centers, bins);
-    let mut boxes = [[Box4::EMPTY; MAX_BINS]; 3];
-    let mut counts = [[0u32; MAX_BINS]; 3];
+fn binned_split<const BINS: usize>(
+    primitives: &mut [Primitive],
+    extent: &Extent,
+) -> Option<(usize, Extent, Extent)> {
+    let binning = Binning::new(&extent.centers, BINS);
+    let mut bins = [[Bin::EMPTY; BINS]; 3];
     for p in primitives.iter() {
-        let at = binning.bins(p.center2());
-        for axis in 0..3 {
-            boxes[axis][at[axis] & (MAX_BINS - 1)].grow(p.min, p.max);
-            counts[axis][at[axis] & (MAX_BINS - 1)] += 1;
+        for (bins, at) in bins.iter_mut().zip(binning.bins::<BINS>(p.center2())) {
+            let bin = &mut bins[at];
+            bin.bounds.grow(p.min, p.max);
+            bin.count += 1;
         }
     }
-    let (axis, bin) = best_cut(&boxes, &counts, bins, &binning)?;
+    let (axis, cut) = best_cut(&bins, &binning)?;
     let (mut i, mut end) = (0, primitives.len());
     let (mut left, mut right) = (Extent::EMPTY, Extent::EMPTY);
     while i < end {
-        if binning.bins(primitives[i].center2())[axis] < bin {
+        if binning.bins::<BINS>(primitives[i].center2())[axis] < cut {
             left.add(&primitives[i]);
             i += 1;
         } else {
@@ -297,36 +316,40 @@ fn binned_split(primitives: &mut [Primitive], extent: &Extent) -> Option<(usize,
     (i > 0 && i < primitives.len()).then_some((i, left, right))
 }
 
+#[derive(Clone, Copy)]
+struct Bin {
+    bounds: Box4,
+    count: u32,
+}
+
+impl Bin {
+    const EMPTY: Self = Self { bounds: Box4::EMPTY, count: 0 };
+}
+
 /// Axis and first bin of the right side of the cheapest cut.
-fn best_cut(
-    boxes: &[[Box4; MAX_BINS]; 3],
-    counts: &[[u32; MAX_BINS]; 3],
-    bins: usize,
-    binning: &Binning,
-) -> Option<(usize, usize)> {
+fn best_cut<const BINS: usize>(bins: &[[Bin; BINS]; 3], binning: &Binning) -> Option<(usize, usize)> {
     let mut best = (f32::INFINITY, 0, 0);
-    for axis in 0..3 {
+    for (axis, bins) in bins.iter().enumerate() {
         if binning.scale[axis] == 0.0 {
             continue;
         }
-        let mut right_costs = [0f32; MAX_BINS];
+        // An empty side costs ∞·0, a NaN, and never wins.
+        let mut costs = [0f32; BINS];
         let (mut right, mut n) = (Box4::EMPTY, 0);
-        for i in (1..bins).rev() {
-            let b = &boxes[axis][i];
-            right.grow(b.min, b.max);
-            n += counts[axis][i];
-            right_costs[i] = if n == 0 { f32::INFINITY } else { right.half_area() * cost_of(n) };
+        for i in (1..BINS).rev() {
+            right.grow(bins[i].bounds.min, bins[i].bounds.max);
+            n += bins[i].count;
+            costs[i] = right.half_area() * cost_of(n);
         }
         let (mut left, mut n) = (Box4::EMPTY, 0);
-        for i in 1..bins {
-            let b = &boxes[axis][i - 1];
-            left.grow(b.min, b.max);
-            n += counts[axis][i - 1];
-            if n > 0 {
-                let cost = left.half_area() * cost_of(n) + right_costs[i];
-                if cost < best.0 {
-                    best = (cost, axis, i);
-                }
+        for i in 1..BINS {
+            left.grow(bins[i - 1].bounds.min, bins[i - 1].bounds.max);
+            n += bins[i - 1].count;
+            costs[i] += left.half_area() * cost_of(n);
+        }
+        for (i, &cost) in costs.iter().enumerate().skip(1) {
+            if cost < best.0 {
+                best = (cost, axis, i);
             }
         }
     }

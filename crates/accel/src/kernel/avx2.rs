@@ -11,13 +11,16 @@ use super::{Kernel, NodeHits, PackHits, Prepared, Row4, Row8, SLAB, edges_f64};
 use crate::bvh::Bvh;
 use crate::node::{LANES, Node, Pack, WIDTH};
 
-/// Proof that this processor has AVX2: made by [`Available::detect`] alone.
+/// Proof that this processor has AVX2, BMI 1 and 2, and POPCNT: made by [`Available::detect`] alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Available(());
 
 impl Available {
     pub fn detect() -> Option<Self> {
-        let yes = is_x86_feature_detected!("avx2") && is_x86_feature_detected!("bmi1");
+        let yes = is_x86_feature_detected!("avx2")
+            && is_x86_feature_detected!("bmi1")
+            && is_x86_feature_detected!("bmi2")
+            && is_x86_feature_detected!("popcnt");
         yes.then_some(Self(()))
     }
 }
@@ -27,9 +30,9 @@ pub(super) fn search<const ANY: bool>(_: Available, bvh: &Bvh, ray: &Ray, best: 
     unsafe { search_avx2::<ANY>(bvh, ray, best, instance) }
 }
 
-#[target_feature(enable = "avx2,bmi1")]
+#[target_feature(enable = "avx2,bmi1,bmi2,popcnt")]
 fn search_avx2<const ANY: bool>(bvh: &Bvh, ray: &Ray, best: &mut Best, instance: u32) {
-    // SAFETY: as this function is compiled for AVX2 and BMI1, its caller has seen to it that the processor has them.
+    // SAFETY: as this function is compiled for them, its caller has seen to it that the processor has them.
     let kernel = unsafe { Avx2::new(ray) };
     traverse::<Avx2, ANY>(&kernel, bvh, ray, best, instance);
 }
@@ -48,7 +51,7 @@ pub(super) struct Avx2 {
 
 impl Avx2 {
     /// # Safety
-    /// The processor must have AVX2 and BMI1; whoever holds an `Avx2` may rely on it.
+    /// The processor must have AVX2, BMI and POPCNT; whoever holds an `Avx2` may rely on it.
     #[inline(always)]
     unsafe fn new(ray: &Ray) -> Self {
         let p = Prepared::new(ray);
@@ -165,7 +168,7 @@ impl Kernel for Avx2 {
     }
 
     fn search<const ANY: bool>(&self, bvh: &Bvh, ray: &Ray, best: &mut Best, instance: u32) {
-        // SAFETY: an `Avx2` exists only where the processor has AVX2 and BMI1.
+        // SAFETY: an `Avx2` exists only where the processor has AVX2, BMI and POPCNT.
         unsafe { search_avx2::<ANY>(bvh, ray, best, instance) }
     }
 }

@@ -83,35 +83,40 @@ impl Local<'_> {
     }
 }
 
-/// A stack that needs no initialisation. An entry is a child and where the ray enters its box, as bits, which are in
-/// the order of the numbers since these are not negative.
-struct Stack {
-    entries: [MaybeUninit<u64>; Stack::SIZE],
+/// The wide tree is no deeper than the binary one (44 + 32 levels), and each level leaves 7 children at most.
+const STACK: usize = 80 * (WIDTH - 1);
+
+/// Room for a stack; on its own, lest it be cleared for every ray.
+type Room = [MaybeUninit<u64>; STACK];
+
+/// An entry is a child and where the ray enters its box, as bits, which are in the order of the numbers since these
+/// are not negative.
+struct Stack<'a> {
+    entries: &'a mut Room,
     len: usize,
 }
 
-impl Stack {
-    /// The wide tree is no deeper than the binary one (44 + 32 levels), and each level leaves 7 at most.
-    const SIZE: usize = 80 * (WIDTH - 1);
-
-    #[inline(always)]
-    fn new() -> Self {
-        Self { entries: [MaybeUninit::uninit(); Self::SIZE], len: 0 }
-    }
-
+impl Stack<'_> {
     #[inline(always)]
     fn push(&mut self, entry: u64) {
         self.entries[self.len] = MaybeUninit::new(entry);
         self.len += 1;
     }
 
+    /// The entry at `i` < `len`.
+    #[inline(always)]
+    fn at(&self, i: usize) -> u64 {
+        debug_assert!(i < self.len);
+        // SAFETY: entries below `len` were written by `push`, the only one to raise it.
+        unsafe { self.entries[i].assume_init() }
+    }
+
     /// The next child that the ray enters before `end`.
     #[inline(always)]
     fn pop(&mut self, end: f32) -> Option<Child> {
         while self.len > 0 {
+            let entry = self.at(self.len - 1);
             self.len -= 1;
-            // SAFETY: entries below `len` were written by `push`, the only one to raise it.
-            let entry = unsafe { self.entries[self.len].assume_init() };
             if f32::from_bits((entry >> 32) as u32) <= end {
                 return Some(Child(entry as u32));
             }
@@ -122,21 +127,14 @@ impl Stack {
     /// Sorts the entries from `start`, the nearest last.
     #[inline(always)]
     fn sort_from(&mut self, start: usize) {
-        let entries = &mut self.entries[start..self.len];
-        for i in 1..entries.len() {
-            // SAFETY: these entries lie below `len`, so that `push` has written them.
-            let moving = unsafe { entries[i].assume_init() };
+        for i in start + 1..self.len {
+            let moving = self.at(i);
             let mut j = i;
-            while j > 0 {
-                // SAFETY: the same.
-                let before = unsafe { entries[j - 1].assume_init() };
-                if before >= moving {
-                    break;
-                }
-                entries[j] = MaybeUninit::new(before);
+            while j > start && self.at(j - 1) < moving {
+                self.entries[j] = MaybeUninit::new(self.at(j - 1));
                 j -= 1;
             }
-            entries[j] = MaybeUninit::new(moving);
+            self.entries[j] = MaybeUninit::new(moving);
         }
     }
 }
@@ -156,7 +154,8 @@ pub(super) fn traverse<K: Kernel, const ANY: bool>(
     instance: u32,
 ) {
     let Some(mut at) = bvh.root else { return };
-    let mut stack = Stack::new();
+    let mut room: Room = [const { MaybeUninit::uninit() }; STACK];
+    let mut stack = Stack { entries: &mut room, len: 0 };
     let mut local = Local { bvh, best, slot: NO_SLOT, instance };
     let mut end = local.end();
     'walk: loop {
