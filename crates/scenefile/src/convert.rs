@@ -70,20 +70,14 @@ pub(crate) fn number(report: &mut Report, what: &str, range: Range, node: &Node)
         }
     };
     let single = value as f32;
-    // Both: 1e-60 is not positive in 32 bits, and 0.99999999999 is less than 1 before it is rounded.
-    let within = |x: f64| {
-        range.contains(x) || (x == range.min && !range.open_min) || (x == range.max && !range.open_max)
-    };
-    if !within(single as f64) || !range.contains(value) {
-        let expected = if single.is_finite() || !value.is_finite() {
-            let finite = if range.text().is_empty() {
-                "a finite number".to_owned()
-            } else {
-                Kind::Number(range).text()
-            };
-            finite
-        } else {
+    // Both: 1e-60 is not positive in 32 bits, and 179.99999999 is no longer less than 180.
+    if !range.contains(value) || !range.contains(single as f64) {
+        let expected = if value.is_finite() && !single.is_finite() {
             "a number that fits 32 bits".to_owned()
+        } else if range.text().is_empty() {
+            "a finite number".to_owned()
+        } else {
+            Kind::Number(range).text()
         };
         out_of_range(report, what, &expected, node);
         return None;

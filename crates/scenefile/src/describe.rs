@@ -106,10 +106,25 @@ pub fn describe(topic: &str) -> Result<String, UnknownTopic> {
     if !first.is_empty()
         && let Some(section) = SECTIONS.iter().find(holders)
     {
-        let variants = section.variants().iter().filter(|v| section.name == first || v.name == first);
-        let mut keys = section.keys.iter().chain(variants.flat_map(Variant::keys));
-        if let Some(key) = keys.find(|key| key.name == second) {
-            return Ok(key_text(key));
+        let mut found: Vec<(&Key, Vec<&str>)> =
+            section.keys.iter().filter(|key| key.name == second).map(|key| (key, Vec::new())).collect();
+        for variant in section.variants().iter().filter(|v| section.name == first || v.name == first) {
+            for key in variant.keys().filter(|key| key.name == second) {
+                match found.iter_mut().find(|(other, _)| *other == key) {
+                    Some((_, kinds)) => kinds.push(variant.name),
+                    None => found.push((key, vec![variant.name])),
+                }
+            }
+        }
+        let title = |kinds: &[&str]| match kinds {
+            [] => section.header(),
+            kinds => format!("{} {}", section.header(), kinds.join(", ")),
+        };
+        if !found.is_empty() {
+            return Ok(found
+                .iter()
+                .map(|(key, kinds)| format!("{}\n{}", title(kinds), key_text(key)))
+                .collect());
         }
     }
     let names: Vec<&str> = topics().into_iter().map(|(name, _)| name).collect();

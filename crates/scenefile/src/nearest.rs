@@ -70,10 +70,13 @@ pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a s
     let synonyms =
         SYNONYMS.iter().find(|(other, _)| folded(other) == wanted).map_or(&[][..], |(_, ours)| *ours);
     let mut best: Option<(usize, &str)> = None;
-    let mut synonym = None;
+    // The rank of the best synonym so far, and the candidate.
+    let mut synonym: Option<(usize, &str)> = None;
     for candidate in candidates {
-        if synonyms.contains(&candidate) && synonym.is_none() {
-            synonym = Some(candidate);
+        if let Some(rank) = synonyms.iter().position(|ours| *ours == candidate)
+            && synonym.is_none_or(|(least, _)| rank < least)
+        {
+            synonym = Some((rank, candidate));
         }
         let letters = folded(candidate);
         let longer = letters.len().max(wanted.len());
@@ -87,7 +90,7 @@ pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a s
             best = Some((d, candidate));
         }
     }
-    best.map(|(_, candidate)| candidate).or(synonym)
+    best.or(synonym).map(|(_, candidate)| candidate)
 }
 
 #[cfg(test)]

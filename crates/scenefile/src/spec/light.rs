@@ -1,7 +1,7 @@
 //! `[[lights]]`.
 
 use super::Kind::{Color, Direction, Number, Point};
-use super::Preset::{Absent, Required, Triple};
+use super::Preset::{Absent, Required};
 use super::{Form, Key, Kind, NON_NEGATIVE, POSITIVE, Preset, Range, Section, Switch, Variant, closed, key};
 
 const POSITION: Key = key("position", Point, "scene units", Required, "Where it is.");
