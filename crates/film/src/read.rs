@@ -102,6 +102,14 @@ impl RgbImage {
         self.height
     }
 
+    /// The pixels whose channel mean is above 0.5, as a mask for [`crate::compare`].
+    pub fn to_mask(&self) -> Vec<bool> {
+        self.pixels
+            .iter()
+            .map(|p| (f64::from(p[0]) + f64::from(p[1]) + f64::from(p[2])) / 3.0 > 0.5)
+            .collect()
+    }
+
     /// The pixels, row by row.
     pub fn pixels(&self) -> &[[f32; 3]] {
         &self.pixels

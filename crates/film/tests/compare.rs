@@ -79,6 +79,8 @@ fn refusals() {
     // Too small for a block, yet compared.
     assert_eq!(compare(&other, &other, None).unwrap().block_median, None);
     assert!(RgbImage::new(2, 2, vec![[0.0; 3]; 3]).is_none());
+    let mask = RgbImage::new(2, 1, vec![[0.0, 1.0, 0.6], [1.5, 0.0, 0.0]]).unwrap();
+    assert_eq!(mask.to_mask(), [true, false]);
 }
 
 #[test]
