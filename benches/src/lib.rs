@@ -1,4 +1,6 @@
 //! Benchmarks against peers.
 
+mod embree;
 mod nanoflann;
+pub mod rays;
 pub mod search;
