@@ -1,1 +1,51 @@
-//! Nephroid as a library.
+//! Nephroid as a library: global illumination and caustics with photon maps.
+//!
+//! A [`SceneDesc`] says what is in the scene and how to render it; it is read from a TOML file by [`load`] or built in
+//! code. [`compile`] makes a [`Scene`] of it, a [`Session`] renders a [`Job`] pass by pass into a [`Film`], and an
+//! [`Output`] writes that as EXR or PNG.
+//!
+//! The film depends on description and seed alone: any number of threads gives the same bytes.
+//!
+//! ```
+//! use nephroid::desc::{Camera, Emission, Material, Object, Shape};
+//! use nephroid::{Control, Job, SceneDesc, Session, compile};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let mut desc = SceneDesc::default();
+//! desc.film.size = [8, 8];
+//! desc.render.passes = 2;
+//! desc.photon_map.photons = 1000;
+//! desc.camera = Some(Camera { position: [0.0, 0.0, 4.0], ..Camera::default() }.into());
+//! // Inside a sphere that emits 1 W/(sr·m²) and reflects half of what arrives: radiance 1/(1 − 1/2) everywhere.
+//! let shape = Shape::Sphere { center: [0.0; 3], radius: 5.0 };
+//! let emission = Some(Emission::radiance([1.0; 3]).into());
+//! let wall = Object { emission, flip_normals: true, ..Object::new(shape, Material::diffuse(0.5)) };
+//! desc.objects.push(wall.into());
+//!
+//! let scene = compile(&desc, 0)?.scene;
+//! let mut session = Session::new(Job::new(&desc, scene)?, 0)?;
+//! session.run(&mut |_event| Control::Continue)?;
+//! let beauty = session.film().beauty();
+//! let mean: f32 = beauty.iter().map(|[r, g, b]| r + g + b).sum::<f32>() / (3 * beauty.len()) as f32;
+//! assert!((mean - 2.0).abs() < 0.1);
+//! # Ok(())
+//! # }
+//! ```
+
+pub use color::{Lanes, ViewTransform};
+pub use film::{
+    CompareError, Comparison, Film, Layer, OutputError, ReadError, RgbImage, check_writable, compare,
+    difference, encode_png_bytes, write_atomically,
+};
+pub use integrators::{IntegratorKind, MapReport, PhotonMapSettings, Settings};
+pub use math::Vec3;
+pub use scene::{Light, LightId, Scene};
+pub use scenefile::{
+    Diagnostic, Loaded, SceneDesc, Severity, Sources, UnknownTopic, desc, describe, load, parse, render_all,
+    to_toml, topics,
+};
+pub use session::{
+    CompileError, Compiled, Control, Event, Job, Outcome, Output, OutputKind, Overrides, Phase, PictureError,
+    PictureInfo, SceneHash, Session, SessionError, Timings, Warning, check_outputs, compile, scene_hash,
+    settings,
+};

@@ -1,0 +1,229 @@
+//! What may be typed: one definition for the parser, the help, the completions and the man page.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
+use nephroid::desc::IntegratorKind;
+
+/// Renders global illumination and caustics with photon maps.
+///
+/// Exit status: 0 all is well; 1 something failed on the way (a full disk, say); 2 the command line or the scene is
+/// wrong, nothing was written; 130 interrupted, the picture of the passes done was written.
+#[derive(Debug, Parser)]
+#[command(name = "nephroid", version, arg_required_else_help = true, max_term_width = 100)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Render a scene.
+    Render(RenderArgs),
+    /// Say what is in a scene, without rendering it.
+    Info(InfoArgs),
+    /// Compare pictures with a reference, in linear radiance.
+    Compare(CompareArgs),
+    /// Print the reference of scene files.
+    Describe(DescribeArgs),
+    /// Print the completions of a shell.
+    Completions {
+        /// The shell.
+        shell: Shell,
+    },
+    /// Print the man page, as roff.
+    Man,
+}
+
+/// A scene and what replaces parts of it.
+#[derive(Debug, Args)]
+pub struct SceneArgs {
+    /// The scene file (TOML).
+    pub scene: PathBuf,
+
+    /// Algorithm [default: the scene's, or photon_map].
+    #[arg(long, value_name = "NAME")]
+    pub integrator: Option<Integrator>,
+
+    /// Size of the picture in pixels, as 640x480 [default: the scene's, or 512x512].
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<[u32; 2]>,
+
+    /// Width of the picture in pixels; the height keeps the scene's aspect.
+    #[arg(long, value_name = "PIXELS", conflicts_with = "size", value_parser = clap::value_parser!(u32).range(1..=65536))]
+    pub width: Option<u32>,
+
+    /// Passes, each one camera sample a pixel [default: the scene's, or 16].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4_194_304))]
+    pub passes: Option<u32>,
+
+    /// Seed of every random number: same seed, same bytes [default: the scene's, or 0].
+    #[arg(long, value_name = "S")]
+    pub seed: Option<u64>,
+
+    /// Scattering events on a path, at most; 1 is direct light alone [default: the scene's, or no limit].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub max_depth: Option<u32>,
+
+    /// Exposure of PNG pictures in EV (stops): radiance is multiplied by 2^EV [default: the scene's, or 0].
+    #[arg(long, value_name = "EV", allow_negative_numbers = true, value_parser = parse_exposure)]
+    pub exposure: Option<f32>,
+
+    /// Replace any value of the scene file, as photon_map.knn=80 or materials.glass.ior=1.5 (a TOML value); may be
+    /// given several times.
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    pub set: Vec<String>,
+}
+
+/// Arguments of `render`.
+#[derive(Debug, Args)]
+pub struct RenderArgs {
+    /// The scene and its changes.
+    #[command(flatten)]
+    pub scene: SceneArgs,
+
+    /// Picture to write: .exr (linear radiance, all layers) or .png (8 bits, displayed); may be given several times
+    /// [default: the scene's name with .png, in the working directory].
+    #[arg(short, long = "output", value_name = "OUT")]
+    pub output: Vec<PathBuf>,
+
+    /// Threads; 0 is one for each core. Their number never changes the picture.
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_threads)]
+    pub threads: usize,
+
+    /// Say at the end how long each part took, in seconds.
+    #[arg(long)]
+    pub timings: bool,
+
+    /// Say nothing but what went wrong.
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// Arguments of `info`.
+#[derive(Debug, Args)]
+pub struct InfoArgs {
+    /// The scene and its changes.
+    #[command(flatten)]
+    pub scene: SceneArgs,
+}
+
+/// Arguments of `compare`.
+#[derive(Debug, Args)]
+pub struct CompareArgs {
+    /// The reference: .exr or .png (sRGB, made linear).
+    #[arg(value_name = "REF")]
+    pub reference: PathBuf,
+
+    /// The pictures: .exr or .png, of the reference's size.
+    #[arg(value_name = "IMG", required = true)]
+    pub images: Vec<PathBuf>,
+
+    /// Compare only where the mean of this picture is above 0.5.
+    #[arg(long, value_name = "MASK")]
+    pub mask: Option<PathBuf>,
+
+    /// Write a picture of the difference; for one IMG only.
+    #[arg(long, value_name = "OUT.png")]
+    pub diff: Option<PathBuf>,
+
+    /// Print JSON, one object a line.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Arguments of `describe`.
+#[derive(Debug, Args)]
+pub struct DescribeArgs {
+    /// What to describe: a table, a kind or a key, as camera, dielectric or film.exposure [default: the list of
+    /// topics].
+    pub topic: Option<String>,
+}
+
+/// The algorithms, as in scene files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Integrator {
+    /// Two-pass photon mapping.
+    #[value(name = "photon_map", alias = "photon-map")]
+    PhotonMap,
+    /// Path tracing with light sampling.
+    Path,
+}
+
+impl From<Integrator> for IntegratorKind {
+    fn from(integrator: Integrator) -> Self {
+        match integrator {
+            Integrator::PhotonMap => Self::PhotonMap,
+            Integrator::Path => Self::Path,
+        }
+    }
+}
+
+/// As in scene files.
+const MAX_PIXELS: u64 = 1 << 30;
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let wrong = || "a size is width x height in pixels, as 640x480, each from 1 to 65536".to_owned();
+    let (w, h) = text.split_once(['x', 'X', '×']).ok_or_else(wrong)?;
+    let side = |s: &str| s.trim().parse::<u32>().ok().filter(|n| (1..=65536).contains(n)).ok_or_else(wrong);
+    let size = [side(w)?, side(h)?];
+    if u64::from(size[0]) * u64::from(size[1]) > MAX_PIXELS {
+        return Err("a picture has at most 2^30 pixels".to_owned());
+    }
+    Ok(size)
+}
+
+fn parse_exposure(text: &str) -> Result<f32, String> {
+    let value: f32 = text.parse().map_err(|_| "an exposure is a number of stops, as 1.5 or -2".to_owned())?;
+    if (-64.0..=64.0).contains(&value) {
+        return Ok(value);
+    }
+    Err("an exposure lies between -64 and 64 EV".to_owned())
+}
+
+fn parse_threads(text: &str) -> Result<usize, String> {
+    text.parse().ok().filter(|n| *n <= 1024).ok_or_else(|| "threads are a number from 0 to 1024".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_definition_holds_together() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn every_argument_has_help() {
+        fn check(command: &clap::Command) {
+            assert!(command.get_about().is_some(), "{}", command.get_name());
+            for argument in command.get_arguments() {
+                assert!(argument.get_help().is_some(), "{} {}", command.get_name(), argument.get_id());
+            }
+            command.get_subcommands().for_each(check);
+        }
+        check(&Cli::command());
+    }
+
+    #[test]
+    fn sizes() {
+        assert_eq!(parse_size("640x480"), Ok([640, 480]));
+        assert_eq!(parse_size("7X5"), Ok([7, 5]));
+        for wrong in ["", "640", "640x", "0x5", "5x0", "-1x5", "65537x1", "1x2x3", "axb", "65536x65536"] {
+            assert!(parse_size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn exposures() {
+        assert_eq!(parse_exposure("-1.5"), Ok(-1.5));
+        for wrong in ["", "x", "nan", "inf", "65"] {
+            assert!(parse_exposure(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! `nephroid render`.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use nephroid::{
+    Control, Event, Job, Output, Phase, PictureInfo, Session, Timings, Warning, check_outputs, scene_hash,
+};
+
+use crate::args::RenderArgs;
+use crate::failure::{FAILED, Failure, OK, Outcome};
+use crate::progress::{Progress, duration};
+use crate::say;
+use crate::scene::{compiled, describe};
+use crate::signals::{INTERRUPTED, Interrupt};
+
+/// Renders a scene and writes its pictures.
+pub fn run(args: &RenderArgs) -> Outcome {
+    let (outputs, messages) = match check_outputs(&wanted_outputs(args)) {
+        Ok(outputs) => (outputs, Vec::new()),
+        Err(errors) => (Vec::new(), errors.iter().map(|e| format!("{e}\n  = help: {}", e.help())).collect()),
+    };
+    let mut described = describe(&args.scene, messages)?;
+    let (scene, warnings) = compiled(&mut described, args.threads)?;
+    if !warnings.is_empty() {
+        say::say(say::painted(&warnings).trim_end());
+    }
+    let desc = &described.desc;
+    let hash = scene_hash(desc).map_err(Failure::runtime)?;
+    let info = PictureInfo::new(desc, hash);
+    let job = Job::new(desc, scene.scene).map_err(Failure::usage)?;
+    let passes = job.passes.end - job.passes.start;
+    let mut session = Session::new(job, args.threads).map_err(Failure::runtime)?;
+
+    let mut progress = Progress::new(args.quiet, passes);
+    let handle = progress.clone();
+    let interrupt = Interrupt::catch(move || {
+        handle.line("interrupted: the picture is written after this pass; once more ends at once");
+    })
+    .map_err(|e| Failure::runtime(format!("Ctrl-C cannot be caught: {e}")))?;
+    let result = session.run(&mut |event| {
+        tell(&mut progress, event);
+        if interrupt.is_asked() { Control::Stop } else { Control::Continue }
+    });
+    progress.finish();
+
+    let mut timings = described.timings.clone();
+    timings.merge(session.timings());
+    let failed = match &result {
+        Err(error) => Some(format!("the render stopped: {error}")),
+        Ok(_) => None,
+    };
+    let mut code = if failed.is_some() { FAILED } else { OK };
+    if let Some(message) = failed {
+        say::error(&message);
+    }
+    if session.done() > 0 && !write(&outputs, &session, &info, args.quiet, &mut timings) {
+        code = FAILED;
+    }
+    if result == Ok(nephroid::Outcome::Stopped) {
+        if !args.quiet {
+            say::say(&format!("interrupted after {} of {passes} passes", session.done()));
+        }
+        if code == OK {
+            code = INTERRUPTED;
+        }
+    }
+    if args.timings {
+        say::print(&timing_table(&timings))?;
+    }
+    Ok(code)
+}
+
+/// The outputs that were named, or the scene's name with .png in the working directory.
+fn wanted_outputs(args: &RenderArgs) -> Vec<PathBuf> {
+    if !args.output.is_empty() {
+        return args.output.clone();
+    }
+    let stem = args.scene.scene.file_stem().unwrap_or("picture".as_ref());
+    let mut name = stem.to_os_string();
+    name.push(".png");
+    vec![Path::new(&name).to_path_buf()]
+}
+
+fn tell(progress: &mut Progress, event: Event<'_>) {
+    match event {
+        Event::PhaseStarted(phase) => progress.doing(phase.name()),
+        Event::MapsReady { reports, .. } => {
+            for report in reports {
+                progress.line(&format!(
+                    "{} map: {} photons, {}, typical radius {:.3e}",
+                    report.name,
+                    report.photons,
+                    crate::info::bytes(report.bytes as u64),
+                    report.typical_radius
+                ));
+            }
+            progress.doing(Phase::EyePasses.name());
+        }
+        Event::PassDone { done, passes, elapsed, remaining, .. } => {
+            progress.doing(Phase::EyePasses.name());
+            progress.passes(done, passes, elapsed, remaining);
+        }
+        Event::Warning(warning) => warn(progress, &warning),
+        _ => {}
+    }
+}
+
+/// Warnings are said whatever the verbosity.
+fn warn(progress: &Progress, warning: &Warning) {
+    let text = say::warning(&warning.to_string());
+    match progress {
+        Progress::Quiet => say::say(&text),
+        _ => progress.line(&text),
+    }
+}
+
+/// Writes every output that can be written; whether all could.
+fn write(
+    outputs: &[Output],
+    session: &Session,
+    info: &PictureInfo,
+    quiet: bool,
+    timings: &mut Timings,
+) -> bool {
+    let start = Instant::now();
+    let film = session.film();
+    let mut all = true;
+    for output in outputs {
+        match output.write(film, info) {
+            Ok(()) if quiet => {}
+            Ok(()) => say::say(&format!(
+                "wrote {} ({}x{}, {} passes)",
+                output.path().display(),
+                film.width(),
+                film.height(),
+                film.passes()
+            )),
+            Err(error) => {
+                say::error(&error.to_string());
+                all = false;
+            }
+        }
+    }
+    timings.add(Phase::Write, start.elapsed());
+    all
+}
+
+/// A row a phase: name, seconds, share.
+fn timing_table(timings: &Timings) -> String {
+    let total = timings.total().as_secs_f64();
+    let mut out = String::new();
+    for (phase, spent) in timings.iter() {
+        let s = spent.as_secs_f64();
+        let share = if total > 0.0 { 100.0 * s / total } else { 0.0 };
+        let _ = writeln!(out, "{:<18} {s:>10.3} s {share:>5.1} %", phase.name());
+    }
+    let _ = writeln!(out, "{:<18} {total:>10.3} s   ({})", "total", duration(timings.total()));
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use expect_test::expect;
+    use std::time::Duration;
+
+    #[test]
+    fn the_table_of_timings() {
+        let mut timings = Timings::default();
+        timings.add(Phase::Load, Duration::from_millis(4));
+        timings.add(Phase::EyePasses, Duration::from_millis(12_000));
+        timings.add(Phase::Write, Duration::from_millis(30));
+        expect![[r#""#]].assert_eq(&timing_table(&timings));
+    }
+}

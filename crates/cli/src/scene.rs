@@ -1,0 +1,71 @@
+//! From arguments to a description and a compiled scene, with every mistake said at once.
+
+use std::time::Instant;
+
+use nephroid::{
+    CompileError, Compiled, Diagnostic, Overrides, Phase, SceneDesc, Sources, Timings, compile, load,
+    render_all,
+};
+
+use crate::args::SceneArgs;
+use crate::failure::Failure;
+
+/// A description that was read without mistakes.
+#[derive(Debug)]
+pub struct Described {
+    /// The description, with all that was replaced.
+    pub desc: SceneDesc,
+    /// The texts that its spans point into.
+    pub sources: Sources,
+    /// What may be wrong with it.
+    pub warnings: Vec<Diagnostic>,
+    /// What reading took.
+    pub timings: Timings,
+}
+
+/// Reads the scene of `args`. `messages`: what else is wrong with the command line, to be said with it.
+pub fn describe(args: &SceneArgs, messages: Vec<String>) -> Result<Described, Failure> {
+    let start = Instant::now();
+    let loaded = load(&args.scene, &args.set);
+    let mut timings = Timings::default();
+    timings.add(Phase::Load, start.elapsed());
+    let Some(mut desc) = loaded.desc else {
+        return Err(Failure::Scene(loaded.render(), messages));
+    };
+    if !messages.is_empty() {
+        return Err(Failure::Usage(messages));
+    }
+    overrides(args).apply(&mut desc);
+    Ok(Described { desc, sources: loaded.sources, warnings: loaded.diagnostics, timings })
+}
+
+/// Compiles on `threads` threads; the warnings of reading and compiling, as text, come with it.
+pub fn compiled(described: &mut Described, threads: usize) -> Result<(Compiled, String), Failure> {
+    let start = Instant::now();
+    let result = compile(&described.desc, threads);
+    described.timings.add(Phase::Compile, start.elapsed());
+    let mut diagnostics = std::mem::take(&mut described.warnings);
+    match result {
+        Ok(compiled) => {
+            diagnostics.extend(compiled.warnings.iter().cloned());
+            Ok((compiled, render_all(&diagnostics, &described.sources)))
+        }
+        Err(CompileError::Threads(reason)) => Err(Failure::runtime(CompileError::Threads(reason))),
+        Err(CompileError::Scene(errors)) => {
+            diagnostics.extend(errors);
+            Err(Failure::Scene(render_all(&diagnostics, &described.sources), Vec::new()))
+        }
+    }
+}
+
+fn overrides(args: &SceneArgs) -> Overrides {
+    Overrides {
+        integrator: args.integrator.map(Into::into),
+        size: args.size,
+        width: args.width,
+        passes: args.passes,
+        seed: args.seed,
+        exposure: args.exposure,
+        max_depth: args.max_depth,
+    }
+}

@@ -1,0 +1,106 @@
+use std::fmt;
+use std::time::Duration;
+
+use film::{Film, FilmNonFinite};
+use integrators::MapReport;
+
+use crate::Phase;
+
+/// What a session tells its observer.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum Event<'a> {
+    /// A phase begins.
+    PhaseStarted(Phase),
+    /// A phase is over.
+    PhaseDone {
+        /// Which.
+        phase: Phase,
+        /// Wall-clock time.
+        elapsed: Duration,
+    },
+    /// New photon maps are ready.
+    MapsReady {
+        /// Index of the maps.
+        map_index: u64,
+        /// What each holds.
+        reports: &'a [MapReport],
+    },
+    /// A pass is in the film.
+    PassDone {
+        /// Its index.
+        pass: u64,
+        /// Passes of this job that are in the film.
+        done: u64,
+        /// Passes of this job.
+        passes: u64,
+        /// Wall-clock time since the session began to run.
+        elapsed: Duration,
+        /// Wall-clock time that the passes to come will take, from those so far.
+        remaining: Duration,
+        /// The film with this pass in it: a picture may be taken of it.
+        film: &'a Film,
+    },
+    /// Something is not as it should be; the render goes on.
+    Warning(Warning),
+}
+
+/// The observer's answer to an event.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Control {
+    /// Go on.
+    Continue,
+    /// Stop after the pass that runs, or before the first one of the next run.
+    Stop,
+}
+
+/// What a session warns of.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Warning {
+    /// Values of a pass that were not finite, or beyond what a film holds; each counts as 0.
+    NonFinite {
+        /// The first: with the seed, the key to trace its path again.
+        first: FilmNonFinite,
+        /// Pixels a row.
+        width: usize,
+        /// How many in this pass.
+        count: u64,
+    },
+    /// Photons whose power or place was not finite; each was dropped.
+    NonFinitePhotons {
+        /// Index of the maps.
+        map_index: u64,
+        /// Path of the first: with the seed and the index, the key to trace it again.
+        path: u64,
+        /// Scattering events before it went wrong.
+        depth: u32,
+        /// How many.
+        count: u64,
+    },
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NonFinite { first, width, count } => {
+                let pixel = first.at.pixel as usize;
+                write!(
+                    f,
+                    "{count} value{} of pass {} not finite and left out; the first: pixel {},{} of layer {}",
+                    if *count == 1 { " is" } else { "s are" },
+                    first.pass,
+                    pixel % (*width).max(1),
+                    pixel / (*width).max(1),
+                    first.at.layer.name()
+                )
+            }
+            Self::NonFinitePhotons { map_index, path, depth, count } => write!(
+                f,
+                "{count} photon{} of map {map_index} not finite and dropped; the first: path {path} after {depth} \
+                 scattering events",
+                if *count == 1 { " is" } else { "s are" },
+            ),
+        }
+    }
+}

@@ -1,0 +1,158 @@
+use std::collections::BTreeSet;
+use std::fmt;
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use scenefile::desc::{Film, Render, SceneDesc, Shape, Texture};
+
+/// What a scene is known by: equal for equal descriptions and equal files, on every machine.
+///
+/// It covers all that decides the radiance of a pass but the seed: neither the number of passes nor the exposure and
+/// view of pictures, and no layout or comment of the scene file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct SceneHash(pub u128);
+
+impl fmt::Display for SceneHash {
+    /// 32 hexadecimal digits.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:032x}", self.0)
+    }
+}
+
+/// The hash of a description and of the files that it names: FNV-1a with 128 bits (Fowler, Noll & Vo 1991). Not
+/// proof against forgery.
+///
+/// Cost: reads every file once, about 0.3 GB/s.
+///
+/// # Errors
+/// Where a file cannot be read; the message has its path.
+pub fn scene_hash(desc: &SceneDesc) -> Result<SceneHash, String> {
+    let mut hash = Fnv::new();
+    hash.update(scenefile::to_toml(&canonical(desc)).as_bytes());
+    for file in files(desc) {
+        let path = desc.resolve(file);
+        hash.update(&[0]);
+        hash_file(&mut hash, &path).map_err(|e| format!("{} cannot be read: {e}", path.display()))?;
+    }
+    Ok(SceneHash(hash.0))
+}
+
+/// The description without what does not decide the radiance of a pass.
+fn canonical(desc: &SceneDesc) -> SceneDesc {
+    let (film, render) = (Film::default(), Render::default());
+    SceneDesc {
+        base: PathBuf::new(),
+        render: Render { passes: render.passes, seed: render.seed, ..desc.render.clone() },
+        film: Film { exposure: film.exposure, view: film.view, ..desc.film.clone() },
+        ..desc.clone()
+    }
+}
+
+/// The files that a description names, each once, in order of their names.
+fn files(desc: &SceneDesc) -> BTreeSet<&Path> {
+    let textures = desc.textures.values().filter_map(|texture| match &texture.value {
+        Texture::Image { file, .. } => Some(file.value.as_path()),
+        Texture::Checker { .. } => None,
+    });
+    let objects = desc.objects.iter().chain(desc.groups.values().flat_map(|group| &group.objects));
+    let meshes = objects.filter_map(|object| match &object.shape.value {
+        Shape::Mesh { file, .. } => Some(file.value.as_path()),
+        _ => None,
+    });
+    textures.chain(meshes).collect()
+}
+
+fn hash_file(hash: &mut Fnv, path: &Path) -> io::Result<()> {
+    let mut file = File::open(path)?;
+    let mut buffer = vec![0; 1 << 16];
+    loop {
+        match file.read(&mut buffer) {
+            Ok(0) => return Ok(()),
+            Ok(n) => hash.update(&buffer[..n]),
+            Err(e) if e.kind() == io::ErrorKind::Interrupted => {}
+            Err(e) => return Err(e),
+        }
+    }
+}
+
+/// FNV-1a, 128 bits.
+struct Fnv(u128);
+
+impl Fnv {
+    const BASIS: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
+    const PRIME: u128 = (1 << 88) + 0x13b;
+
+    fn new() -> Self {
+        Self(Self::BASIS)
+    }
+
+    fn update(&mut self, bytes: &[u8]) {
+        for &byte in bytes {
+            self.0 = (self.0 ^ u128::from(byte)).wrapping_mul(Self::PRIME);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use scenefile::desc::{Material, Object, Triple};
+
+    fn fnv(text: &str) -> u128 {
+        let mut hash = Fnv::new();
+        hash.update(text.as_bytes());
+        hash.0
+    }
+
+    #[test]
+    fn published_values() {
+        assert_eq!(fnv(""), 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d);
+        assert_eq!(fnv("a"), 0xd228_cb69_6f1a_8caf_7891_2b70_4e4a_8964);
+        assert_eq!(fnv("foobar"), 0x343e_1662_793c_64bf_6f0d_3597_ba44_6f18);
+    }
+
+    #[test]
+    fn the_hash_follows_what_decides_the_radiance() {
+        let center: Triple = [0.0; 3];
+        let mut desc = SceneDesc::default();
+        desc.objects.push(Object::new(Shape::Sphere { center, radius: 1.0 }, Material::diffuse(0.5)).into());
+        let hash = scene_hash(&desc).unwrap();
+        assert_eq!(hash.to_string().len(), 32);
+
+        let mut same = desc.clone();
+        same.base = PathBuf::from("elsewhere");
+        same.render.passes += 1;
+        same.render.seed += 1;
+        same.film.exposure += 1.0;
+        assert_eq!(scene_hash(&same).unwrap(), hash);
+
+        let mut brighter = desc.clone();
+        brighter.objects[0].material = Some(Material::diffuse(0.6).into());
+        let mut larger = desc.clone();
+        larger.film.size[0] += 1;
+        let mut more = desc.clone();
+        more.photon_map.photons += 1;
+        let mut hashes = vec![hash];
+        for other in [&brighter, &larger, &more] {
+            let other = scene_hash(other).unwrap();
+            assert!(!hashes.contains(&other));
+            hashes.push(other);
+        }
+    }
+
+    #[test]
+    fn files_count_by_what_is_in_them() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("a.obj");
+        let mut desc = SceneDesc { base: folder.path().to_owned(), ..SceneDesc::default() };
+        let mesh = Shape::Mesh { file: "a.obj".into(), normals: Default::default() };
+        desc.objects.push(Object::new(mesh, Material::diffuse(0.5)).into());
+        let missing = scene_hash(&desc).unwrap_err();
+        assert!(missing.contains("a.obj"), "{missing}");
+        std::fs::write(&file, "v 0 0 0\n").unwrap();
+        let hash = scene_hash(&desc).unwrap();
+        std::fs::write(&file, "v 0 0 1\n").unwrap();
+        assert_ne!(scene_hash(&desc).unwrap(), hash);
+    }
+}

@@ -1,0 +1,255 @@
+use std::ffi::OsString;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+use color::ViewTransform;
+use film::{ExrOptions, Film, PngOptions};
+use scenefile::desc::{IntegratorKind, SceneDesc, View};
+
+use crate::SceneHash;
+
+/// A picture file to be written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Output {
+    path: PathBuf,
+    kind: OutputKind,
+}
+
+/// The format of a picture file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OutputKind {
+    /// OpenEXR: linear radiance, all layers.
+    Exr,
+    /// PNG: 8 bits, exposed and displayed.
+    Png,
+}
+
+/// Why a picture file is refused.
+#[derive(Debug)]
+pub enum PictureError {
+    /// The name ends in no format that can be written.
+    Extension(PathBuf),
+    /// Two outputs are one file.
+    Twice(PathBuf),
+    /// The file cannot be written.
+    File(film::OutputError),
+}
+
+impl PictureError {
+    /// What to do about it.
+    pub fn help(&self) -> String {
+        match self {
+            Self::Extension(_) => {
+                "end the name in .exr (linear radiance, all layers) or .png (8 bits, displayed)".into()
+            }
+            Self::Twice(_) => "give each picture a name of its own".into(),
+            Self::File(error) => error.help(),
+        }
+    }
+}
+
+impl fmt::Display for PictureError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Extension(path) => match path.extension() {
+                Some(extension) => write!(
+                    f,
+                    "cannot write {}: pictures of type .{} are not known",
+                    path.display(),
+                    extension.display()
+                ),
+                None => write!(f, "cannot write {}: its name does not say which format", path.display()),
+            },
+            Self::Twice(path) => write!(f, "{} is to be written twice", path.display()),
+            Self::File(error) => write!(f, "{error}"),
+        }
+    }
+}
+
+impl std::error::Error for PictureError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::File(error) => Some(error),
+            Self::Extension(_) | Self::Twice(_) => None,
+        }
+    }
+}
+
+impl From<film::OutputError> for PictureError {
+    fn from(error: film::OutputError) -> Self {
+        Self::File(error)
+    }
+}
+
+/// What pictures are written with, besides pixels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PictureInfo {
+    /// Exposure of 8-bit pictures: radiance is multiplied by 2 to this power.
+    pub exposure_ev: f32,
+    /// Display transform of 8-bit pictures.
+    pub view: ViewTransform,
+    /// What files say of themselves: names and values, in this order. The number of passes is added when a film is
+    /// written.
+    pub metadata: Vec<(String, String)>,
+}
+
+impl PictureInfo {
+    /// Of a scene whose hash is known.
+    pub fn new(desc: &SceneDesc, hash: SceneHash) -> Self {
+        let integrator = match desc.render.integrator {
+            IntegratorKind::Path => "path",
+            IntegratorKind::PhotonMap => "photon_map",
+        };
+        let metadata = [
+            ("software", concat!("nephroid ", env!("CARGO_PKG_VERSION")).to_owned()),
+            ("sceneHash", hash.to_string()),
+            ("integrator", integrator.to_owned()),
+            ("seed", desc.render.seed.to_string()),
+        ];
+        Self {
+            exposure_ev: desc.film.exposure,
+            view: match desc.film.view {
+                View::Agx => ViewTransform::Agx,
+                View::Srgb => ViewTransform::Srgb,
+            },
+            metadata: metadata.map(|(name, value)| (name.to_owned(), value)).to_vec(),
+        }
+    }
+
+    fn metadata_of(&self, film: &Film) -> Vec<(String, String)> {
+        let passes = ("passes".to_owned(), film.passes().to_string());
+        self.metadata.iter().cloned().chain([passes]).collect()
+    }
+}
+
+impl Output {
+    /// The output of a path; its extension, in upper or lower case, says the format.
+    ///
+    /// # Errors
+    /// Where the extension is neither exr nor png.
+    pub fn new(path: &Path) -> Result<Self, PictureError> {
+        let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+        let kind = match extension.as_deref() {
+            Some("exr") => OutputKind::Exr,
+            Some("png") => OutputKind::Png,
+            _ => return Err(PictureError::Extension(path.to_owned())),
+        };
+        Ok(Self { path: path.to_owned(), kind })
+    }
+
+    /// Where.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// In which format.
+    pub fn kind(&self) -> OutputKind {
+        self.kind
+    }
+
+    /// Writes a film, into a temporary file that is then renamed: the path holds what it held before, or all of the
+    /// picture.
+    ///
+    /// # Errors
+    /// Where the file cannot be written.
+    pub fn write(&self, film: &Film, info: &PictureInfo) -> Result<(), PictureError> {
+        let metadata = info.metadata_of(film);
+        match self.kind {
+            OutputKind::Exr => {
+                film::write_exr(&self.path, film, &ExrOptions { metadata, ..Default::default() })?
+            }
+            OutputKind::Png => {
+                let options = PngOptions { exposure_ev: info.exposure_ev, view: info.view, metadata };
+                film::write_png(&self.path, film.width(), film.height(), &film.beauty(), &options)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The outputs of paths, each of which could be written now. Nothing is left behind.
+///
+/// # Errors
+/// All that are refused: unknown formats, files that cannot be written, files named twice.
+pub fn check_outputs<P: AsRef<Path>>(paths: &[P]) -> Result<Vec<Output>, Vec<PictureError>> {
+    let (mut outputs, mut errors) = (Vec::new(), Vec::new());
+    let mut seen = Vec::new();
+    for path in paths {
+        let path = path.as_ref();
+        let key = identity(path);
+        if seen.contains(&key) {
+            errors.push(PictureError::Twice(path.to_owned()));
+            continue;
+        }
+        seen.push(key);
+        match Output::new(path).and_then(|o| film::check_writable(path).map(|()| o).map_err(Into::into)) {
+            Ok(output) => outputs.push(output),
+            Err(error) => errors.push(error),
+        }
+    }
+    if errors.is_empty() { Ok(outputs) } else { Err(errors) }
+}
+
+/// Equal for two names of one file in existing folders.
+fn identity(path: &Path) -> (PathBuf, OsString) {
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
+    (folder, path.file_name().unwrap_or_default().to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use film::{PassFilm, PixelSample};
+
+    fn messages(paths: &[PathBuf]) -> Vec<String> {
+        check_outputs(paths).unwrap_err().iter().map(ToString::to_string).collect()
+    }
+
+    #[test]
+    fn formats_are_known_by_extension() {
+        let kind = |path: &str| Output::new(Path::new(path)).map(|o| o.kind()).ok();
+        assert_eq!(kind("a.exr"), Some(OutputKind::Exr));
+        assert_eq!(kind("b/a.PNG"), Some(OutputKind::Png));
+        for unknown in ["a", "exr", ".png", "a.jpg", "a.exr.tmp", ""] {
+            assert_eq!(kind(unknown), None, "{unknown}");
+        }
+    }
+
+    #[test]
+    fn everything_wrong_is_said_and_nothing_left() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        let paths = [at("a.exr"), at("b.jpg"), at("none/c.png"), at("./a.exr"), at("d")];
+        let said = messages(&paths);
+        assert_eq!(said.len(), 4, "{said:?}");
+        for (message, part) in said.iter().zip([".jpg", "none", "twice", "format"]) {
+            assert!(message.contains(part), "{message}");
+        }
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+        assert_eq!(check_outputs(&[at("a.exr"), at("a.png")]).unwrap().len(), 2);
+    }
+
+    #[test]
+    fn a_film_becomes_files_of_either_format() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut film = Film::new(2, 1);
+        let sample = PixelSample { direct: [0.25, 0.5, 1.0], ..PixelSample::default() };
+        film.add(0, &PassFilm::new(2, 1, vec![sample; 2]).unwrap()).unwrap();
+        let info = PictureInfo::new(&SceneDesc::default(), SceneHash(5));
+        for name in ["a.exr", "a.png"] {
+            let path = folder.path().join(name);
+            Output::new(&path).unwrap().write(&film, &info).unwrap();
+            let image = film::RgbImage::read(&path).unwrap();
+            assert_eq!((image.width(), image.height()), (2, 1));
+            if name == "a.exr" {
+                assert_eq!(image.pixels(), [[0.25, 0.5, 1.0]; 2]);
+                let bytes = std::fs::read(&path).unwrap();
+                let text = String::from_utf8_lossy(&bytes);
+                for said in ["sceneHash", &SceneHash(5).to_string(), "passes", "seed", "nephroid 0."] {
+                    assert!(text.contains(said), "{said}");
+                }
+            }
+        }
+    }
+}

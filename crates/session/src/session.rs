@@ -1,0 +1,257 @@
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use film::{Film, FilmError, FilmNonFinite, PassFilm};
+use integrators::{Integrator, Maps, Settings};
+use par::Workers;
+use scene::Scene;
+use scenefile::SceneDesc;
+
+use crate::{Control, Event, Phase, Timings, Warning, settings};
+
+/// What to render.
+#[derive(Clone, Debug)]
+pub struct Job {
+    /// The compiled scene.
+    pub scene: Arc<Scene>,
+    /// Integrator, seed and what else decides the value of a pass.
+    pub settings: Settings,
+    /// Indices of the passes: `0..n` for a whole render, any range for a part of one.
+    pub passes: Range<u64>,
+}
+
+impl Job {
+    /// All that a description asks for, of the scene that it was compiled to.
+    ///
+    /// # Errors
+    /// Where the pixel filter is none.
+    pub fn new(desc: &SceneDesc, scene: Arc<Scene>) -> Result<Self, SessionError> {
+        Ok(Self { scene, settings: settings(desc)?, passes: 0..desc.render.passes.into() })
+    }
+}
+
+/// Why a session cannot run.
+#[derive(Clone, Debug, PartialEq)]
+pub enum SessionError {
+    /// The system starts no more threads; its reason.
+    Threads(String),
+    /// The job has no pass.
+    NoPasses,
+    /// The film refuses: a filter without extent, too many passes.
+    Film(FilmError),
+}
+
+impl fmt::Display for SessionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Threads(reason) => write!(f, "threads cannot be started: {reason}"),
+            Self::NoPasses => write!(f, "there is no pass to render; one at least is needed"),
+            Self::Film(error) => write!(f, "{error}"),
+        }
+    }
+}
+
+impl std::error::Error for SessionError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Film(error) => Some(error),
+            Self::Threads(_) | Self::NoPasses => None,
+        }
+    }
+}
+
+impl From<FilmError> for SessionError {
+    fn from(error: FilmError) -> Self {
+        Self::Film(error)
+    }
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// All passes are in the film.
+    Finished,
+    /// The observer stopped it; [`Session::run`] goes on where it stopped.
+    Stopped,
+}
+
+/// A job in progress. The film depends on the job alone: not on threads, nor on where runs stopped.
+pub struct Session {
+    scene: Arc<Scene>,
+    integrator: Box<dyn Integrator>,
+    workers: Workers,
+    passes: Range<u64>,
+    done: u64,
+    maps: Option<(u64, Maps)>,
+    film: Film,
+    timings: Timings,
+}
+
+impl fmt::Debug for Session {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Session")
+            .field("integrator", &self.integrator.name())
+            .field("threads", &self.workers.threads())
+            .field("passes", &self.passes)
+            .field("done", &self.done)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Session {
+    /// A session of `job` on `threads` threads (0: one for each core).
+    ///
+    /// # Errors
+    /// Where the job has no pass, or more than a film holds, or threads cannot be started.
+    pub fn new(job: Job, threads: usize) -> Result<Self, SessionError> {
+        let Job { scene, settings, passes } = job;
+        if passes.is_empty() {
+            return Err(SessionError::NoPasses);
+        }
+        if passes.end - passes.start > Film::MAX_PASSES {
+            return Err(FilmError::TooManyPasses.into());
+        }
+        let workers = Workers::new(threads).map_err(SessionError::Threads)?;
+        let [width, height] = scene.resolution().map(|n| n as usize);
+        Ok(Self {
+            integrator: integrators::integrator(&settings),
+            film: Film::new(width, height),
+            scene,
+            workers,
+            passes,
+            done: 0,
+            maps: None,
+            timings: Timings::default(),
+        })
+    }
+
+    /// Renders the passes that are missing, in index order. The observer hears of every step.
+    ///
+    /// # Errors
+    /// Where the film cannot take a pass; those before it stay.
+    pub fn run(&mut self, observer: &mut dyn FnMut(Event<'_>) -> Control) -> Result<Outcome, SessionError> {
+        let start = Instant::now();
+        let before = self.done;
+        let mut eye = Duration::ZERO;
+        let mut teller = Teller { observer, stop: false };
+        while self.done < self.passes_total() {
+            let pass = self.passes.start + self.done;
+            self.prepare_maps(pass, &mut teller);
+            let (contribution, elapsed) = self.render(pass);
+            let contribution = contribution?;
+            eye += elapsed;
+            self.film.add(pass, &contribution)?;
+            self.done += 1;
+            if let Some(warning) = nonfinite(pass, &contribution) {
+                teller.tell(Event::Warning(warning));
+            }
+            let (done, passes) = (self.done, self.passes_total());
+            teller.tell(Event::PassDone {
+                pass,
+                done,
+                passes,
+                elapsed: start.elapsed(),
+                remaining: eye.mul_f64((passes - done) as f64 / (done - before) as f64),
+                film: &self.film,
+            });
+            if teller.stop && self.done < self.passes_total() {
+                return Ok(Outcome::Stopped);
+            }
+        }
+        Ok(Outcome::Finished)
+    }
+
+    /// The maps that `pass` looks up, unless they are at hand.
+    fn prepare_maps(&mut self, pass: u64, teller: &mut Teller<'_>) {
+        let wanted = self.integrator.map_index(pass);
+        if self.maps.as_ref().map(|(index, _)| *index) == wanted {
+            return;
+        }
+        self.maps = None;
+        let Some(index) = wanted else { return };
+        let (scene, integrator, workers) = (&*self.scene, &*self.integrator, &self.workers);
+        let photons = teller.phase(&mut self.timings, Phase::Photons, || {
+            workers.run(|| integrator.trace_photons(scene, index))
+        });
+        if let Some(&(path, depth)) = photons.nonfinite.first() {
+            let count = photons.nonfinite.len() as u64;
+            teller.tell(Event::Warning(Warning::NonFinitePhotons { map_index: index, path, depth, count }));
+        }
+        let maps = teller.phase(&mut self.timings, Phase::MapBuild, || {
+            workers.run(|| integrator.build_maps(scene, photons))
+        });
+        teller.tell(Event::MapsReady { map_index: index, reports: &maps.reports() });
+        self.maps = Some((index, maps));
+    }
+
+    fn render(&mut self, pass: u64) -> (Result<PassFilm, FilmError>, Duration) {
+        let start = Instant::now();
+        let maps = self.maps.as_ref().map(|(_, maps)| maps);
+        let contribution = self.workers.run(|| self.integrator.render(&self.scene, maps, pass));
+        let elapsed = start.elapsed();
+        self.timings.add(Phase::EyePasses, elapsed);
+        (contribution, elapsed)
+    }
+
+    fn passes_total(&self) -> u64 {
+        self.passes.end - self.passes.start
+    }
+
+    /// The film so far.
+    pub fn film(&self) -> &Film {
+        &self.film
+    }
+
+    /// The film, when no more passes are wanted.
+    pub fn into_film(self) -> Film {
+        self.film
+    }
+
+    /// Passes of this job that are in the film.
+    pub fn done(&self) -> u64 {
+        self.done
+    }
+
+    /// Worker threads.
+    pub fn threads(&self) -> usize {
+        self.workers.threads()
+    }
+
+    /// Time spent on photons, maps and eye passes.
+    pub fn timings(&self) -> &Timings {
+        &self.timings
+    }
+}
+
+/// The observer, and whether it wants to stop.
+struct Teller<'a> {
+    observer: &'a mut dyn FnMut(Event<'_>) -> Control,
+    stop: bool,
+}
+
+impl Teller<'_> {
+    fn tell(&mut self, event: Event<'_>) {
+        self.stop |= (self.observer)(event) == Control::Stop;
+    }
+
+    fn phase<R>(&mut self, timings: &mut Timings, phase: Phase, f: impl FnOnce() -> R) -> R {
+        self.tell(Event::PhaseStarted(phase));
+        let start = Instant::now();
+        let result = f();
+        let elapsed = start.elapsed();
+        timings.add(phase, elapsed);
+        self.tell(Event::PhaseDone { phase, elapsed });
+        result
+    }
+}
+
+fn nonfinite(pass: u64, contribution: &PassFilm) -> Option<Warning> {
+    let &at = contribution.nonfinite().first()?;
+    Some(Warning::NonFinite {
+        first: FilmNonFinite { pass, at },
+        width: contribution.width(),
+        count: contribution.nonfinite_count(),
+    })
+}
