@@ -167,6 +167,14 @@ impl Kernel for Avx2 {
         out
     }
 
+    #[inline(always)]
+    fn prefetch(&self, address: *const u8) {
+        for line in 0..4 {
+            // SAFETY: a hint to the processor, which never faults, whatever the address.
+            unsafe { _mm_prefetch::<_MM_HINT_T0>(address.wrapping_add(64 * line).cast()) };
+        }
+    }
+
     fn search<const ANY: bool>(&self, bvh: &Bvh, ray: &Ray, best: &mut Best, instance: u32) {
         // SAFETY: an `Avx2` exists only where the processor has AVX2, BMI and POPCNT.
         unsafe { search_avx2::<ANY>(bvh, ray, best, instance) }

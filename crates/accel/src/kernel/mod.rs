@@ -139,6 +139,9 @@ pub(super) trait Kernel {
     /// Triangles that the ray meets at 0 < t ≤ `end`.
     fn pack(&self, pack: &Pack, end: f32) -> PackHits;
 
+    /// Begins to load the four cache lines from `address`, which may be anything.
+    fn prefetch(&self, address: *const u8);
+
     /// Searches an instance's tree with the same instructions.
     fn search<const ANY: bool>(&self, bvh: &Bvh, ray: &Ray, best: &mut Best, instance: u32);
 }

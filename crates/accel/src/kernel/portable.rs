@@ -80,6 +80,9 @@ impl Kernel for Portable {
         PackHits { mask, t: Row4(t), u: Row4(u), v: Row4(v) }
     }
 
+    #[inline(always)]
+    fn prefetch(&self, _: *const u8) {}
+
     fn search<const ANY: bool>(&self, bvh: &Bvh, ray: &Ray, best: &mut Best, instance: u32) {
         search::<ANY>(bvh, ray, best, instance);
     }
