@@ -89,7 +89,7 @@ fn tell(progress: &mut Progress, event: Event<'_>) {
         Event::MapsReady { reports, .. } => {
             for report in reports {
                 progress.line(&format!(
-                    "{} map: {} photons, {}, typical radius {:.3e}",
+                    "{} map: {} stored photons, {}, typical radius {:.3e}",
                     report.name,
                     report.photons,
                     crate::info::bytes(report.bytes as u64),
@@ -172,6 +172,15 @@ mod tests {
         timings.add(Phase::Load, Duration::from_millis(4));
         timings.add(Phase::EyePasses, Duration::from_millis(12_000));
         timings.add(Phase::Write, Duration::from_millis(30));
-        expect![[r#""#]].assert_eq(&timing_table(&timings));
+        expect![[r#"
+            load scene              0.004 s   0.0 %
+            compile scene           0.000 s   0.0 %
+            trace photons           0.000 s   0.0 %
+            build photon maps       0.000 s   0.0 %
+            eye passes             12.000 s  99.7 %
+            write pictures          0.030 s   0.2 %
+            total                  12.034 s   (12 s)
+        "#]]
+        .assert_eq(&timing_table(&timings));
     }
 }

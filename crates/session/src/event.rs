@@ -85,10 +85,10 @@ impl fmt::Display for Warning {
         match self {
             Self::NonFinite { first, width, count } => {
                 let pixel = first.at.pixel as usize;
+                let (values, are) = if *count == 1 { ("value", "is") } else { ("values", "are") };
                 write!(
                     f,
-                    "{count} value{} of pass {} not finite and left out; the first: pixel {},{} of layer {}",
-                    if *count == 1 { " is" } else { "s are" },
+                    "{count} {values} of pass {} {are} not finite and left out; the first: pixel {},{} of layer {}",
                     first.pass,
                     pixel % (*width).max(1),
                     pixel / (*width).max(1),
@@ -97,7 +97,7 @@ impl fmt::Display for Warning {
             }
             Self::NonFinitePhotons { map_index, path, depth, count } => write!(
                 f,
-                "{count} photon{} of map {map_index} not finite and dropped; the first: path {path} after {depth} \
+                "{count} photon{} not finite and dropped from maps {map_index}; the first: path {path} after {depth} \
                  scattering events",
                 if *count == 1 { " is" } else { "s are" },
             ),

@@ -106,7 +106,16 @@ impl Session {
     /// # Errors
     /// Where the job has no pass, or more than a film holds, or threads cannot be started.
     pub fn new(job: Job, threads: usize) -> Result<Self, SessionError> {
-        let Job { scene, settings, passes } = job;
+        let integrator = integrators::integrator(&job.settings);
+        Self::with_integrator(job.scene, integrator, job.passes, threads)
+    }
+
+    fn with_integrator(
+        scene: Arc<Scene>,
+        integrator: Box<dyn Integrator>,
+        passes: Range<u64>,
+        threads: usize,
+    ) -> Result<Self, SessionError> {
         if passes.is_empty() {
             return Err(SessionError::NoPasses);
         }
@@ -116,7 +125,7 @@ impl Session {
         let workers = Workers::new(threads).map_err(SessionError::Threads)?;
         let [width, height] = scene.resolution().map(|n| n as usize);
         Ok(Self {
-            integrator: integrators::integrator(&settings),
+            integrator,
             film: Film::new(width, height),
             scene,
             workers,
@@ -254,4 +263,168 @@ fn nonfinite(pass: u64, contribution: &PassFilm) -> Option<Warning> {
         width: contribution.width(),
         count: contribution.nonfinite_count(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use film::{Layer, PixelSample};
+    use integrators::TracedPhotons;
+    use scenefile::desc::{Camera, IntegratorKind, Light, LightKind, Material, Object, Shape};
+
+    fn desc() -> SceneDesc {
+        let mut desc = SceneDesc::default();
+        desc.film.size = [5, 4];
+        desc.render.passes = 4;
+        desc.photon_map.photons = 500;
+        desc.photon_map.caustic_photons = 500;
+        desc.camera = Some(Camera { position: [0.0, 0.0, 4.0], ..Camera::default() }.into());
+        let ball = Shape::Sphere { center: [0.0; 3], radius: 1.0 };
+        desc.objects.push(Object::new(ball, Material::diffuse(0.5)).into());
+        desc.lights.push(Light::from(LightKind::Environment { radiance: [1.0; 3] }).into());
+        desc
+    }
+
+    fn job(desc: &SceneDesc) -> Job {
+        Job::new(desc, crate::compile(desc, 1).unwrap().scene).unwrap()
+    }
+
+    /// Renders the index of the pass; maps change every other pass; value 7 of each third pass is no number.
+    struct Fake;
+
+    impl Integrator for Fake {
+        fn name(&self) -> &'static str {
+            "fake"
+        }
+        fn map_index(&self, pass: u64) -> Option<u64> {
+            Some(pass / 2)
+        }
+        fn trace_photons(&self, _: &Scene, map_index: u64) -> TracedPhotons {
+            let mut photons = TracedPhotons::default();
+            if map_index == 1 {
+                photons.nonfinite = vec![(9, 2), (11, 0)];
+            }
+            photons
+        }
+        fn build_maps(&self, _: &Scene, _: TracedPhotons) -> Maps {
+            Maps::default()
+        }
+        fn render(&self, scene: &Scene, maps: Option<&Maps>, pass: u64) -> Result<PassFilm, FilmError> {
+            assert!(maps.is_some());
+            let [w, h] = scene.resolution().map(|n| n as usize);
+            let mut pixels = vec![PixelSample { direct: [pass as f32; 3], ..PixelSample::default() }; w * h];
+            if pass % 3 == 2 {
+                pixels[7].caustic[1] = f32::NAN;
+            }
+            PassFilm::new(w, h, pixels)
+        }
+    }
+
+    fn fake(passes: Range<u64>) -> Session {
+        Session::with_integrator(job(&desc()).scene, Box::new(Fake), passes, 1).unwrap()
+    }
+
+    #[test]
+    fn events_come_in_order_and_maps_are_kept_while_their_index_is() {
+        let mut said = Vec::new();
+        let mut session = fake(2..6);
+        let outcome = session.run(&mut |event| {
+            said.push(match event {
+                Event::PhaseStarted(phase) => format!("{phase:?}"),
+                Event::PhaseDone { phase, .. } => format!("{phase:?} done"),
+                Event::MapsReady { map_index, reports } => format!("maps {map_index} ({})", reports.len()),
+                Event::PassDone { pass, done, passes, film, .. } => {
+                    assert_eq!(film.passes(), done);
+                    format!("pass {pass}, {done} of {passes}")
+                }
+                Event::Warning(warning) => warning.to_string(),
+            });
+            Control::Continue
+        });
+        assert_eq!(outcome, Ok(Outcome::Finished));
+        let maps = |i: u64| {
+            ["Photons", "Photons done", "MapBuild", "MapBuild done"]
+                .map(str::to_owned)
+                .into_iter()
+                .chain([format!("maps {i} (0)")])
+        };
+        let mut expected: Vec<String> = maps(1).collect();
+        expected.insert(
+            2,
+            "2 photons are not finite and dropped from maps 1; the first: path 9 after 2 scattering events"
+                .into(),
+        );
+        expected.extend([
+            "1 value of pass 2 is not finite and left out; the first: pixel 2,1 of layer caustic".into(),
+            "pass 2, 1 of 4".into(),
+            "pass 3, 2 of 4".into(),
+        ]);
+        expected.extend(maps(2));
+        expected.extend([
+            "pass 4, 3 of 4".into(),
+            "1 value of pass 5 is not finite and left out; the first: pixel 2,1 of layer caustic".into(),
+            "pass 5, 4 of 4".into(),
+        ]);
+        assert_eq!(said, expected);
+        assert_eq!(session.film().pass_ranges(), [2..6]);
+        assert!(session.film().layer(Layer::Direct).iter().all(|v| *v == 3.5), "the mean of 2, 3, 4, 5");
+    }
+
+    #[test]
+    fn a_stop_lets_the_pass_finish_and_a_run_goes_on() {
+        let mut session = fake(0..5);
+        // Asked for while photons are traced: the pass they are for is still rendered.
+        let stop_at_once = &mut |_: Event<'_>| Control::Stop;
+        assert_eq!(session.run(stop_at_once), Ok(Outcome::Stopped));
+        assert_eq!(session.done(), 1);
+        assert_eq!(session.run(stop_at_once), Ok(Outcome::Stopped));
+        assert_eq!(session.run(&mut |_| Control::Continue), Ok(Outcome::Finished));
+        assert_eq!(session.run(stop_at_once), Ok(Outcome::Finished), "nothing is left");
+        let mut straight = fake(0..5);
+        straight.run(&mut |_| Control::Continue).unwrap();
+        assert_eq!(session.into_film(), straight.into_film());
+    }
+
+    #[test]
+    fn a_stop_after_the_last_pass_is_a_finish() {
+        let mut session = fake(0..1);
+        assert_eq!(session.run(&mut |_| Control::Stop), Ok(Outcome::Finished));
+    }
+
+    #[test]
+    fn films_of_any_threads_and_any_split_are_equal() {
+        for integrator in [IntegratorKind::PhotonMap, IntegratorKind::Path] {
+            let mut desc = desc();
+            desc.render.integrator = integrator;
+            let job = job(&desc);
+            let film = |passes: Range<u64>, threads: usize| {
+                let mut session = Session::new(Job { passes, ..job.clone() }, threads).unwrap();
+                session.run(&mut |_| Control::Continue).unwrap();
+                session.into_film()
+            };
+            let whole = film(0..4, 1);
+            assert!(whole.beauty().iter().any(|p| p[0] > 0.1));
+            assert_eq!(whole, film(0..4, 3));
+            let mut merged = film(3..4, 2);
+            merged.merge(&film(0..3, 1)).unwrap();
+            assert_eq!(whole, merged, "{integrator:?}");
+        }
+    }
+
+    #[test]
+    fn jobs_that_cannot_run() {
+        let desc = desc();
+        let refused = |passes: Range<u64>| Session::new(Job { passes, ..job(&desc) }, 1).unwrap_err();
+        assert_eq!(refused(3..3), SessionError::NoPasses);
+        assert_eq!(refused(0..Film::MAX_PASSES + 1), SessionError::Film(FilmError::TooManyPasses));
+    }
+
+    #[test]
+    fn every_phase_is_timed() {
+        let mut session = Session::new(job(&desc()), 1).unwrap();
+        session.run(&mut |_| Control::Continue).unwrap();
+        for phase in [Phase::Photons, Phase::MapBuild, Phase::EyePasses] {
+            assert!(session.timings().get(phase) > Duration::ZERO, "{phase:?}");
+        }
+    }
 }

@@ -11,14 +11,26 @@ fn the_default_output_is_named_after_the_scene() {
     assert_eq!(place.files(), ["box.png", "box.toml"]);
     assert_eq!(size(&place.path("box.png")), (16, 12));
     assert_eq!(ran.out, "");
-    expect![[r#""#]].assert_eq(&masked(&ran.err));
+    expect![[r#"
+        global map: 780 photons, _ KiB, typical radius 3.748e-1
+        caustic map: 1005 photons, _ KiB, typical radius 4.470e-2
+        pass 1/2 (50 %), _ s elapsed, _ s left
+        pass 2/2 (100 %), _ s elapsed
+        wrote box.png (16x12, 2 passes)
+    "#]]
+    .assert_eq(&masked(&ran.err));
 }
 
 #[test]
 fn path_tracing_says_its_passes() {
     let place = Place::new();
     let ran = place.ok(&["render", "box.toml", "--integrator", "path", "-o", "a.exr"]);
-    expect![[r#""#]].assert_eq(&masked(&ran.err));
+    expect![[r#"
+        pass 1/2 (50 %), _ s elapsed, _ s left
+        pass 2/2 (100 %), _ s elapsed
+        wrote a.exr (16x12, 2 passes)
+    "#]]
+    .assert_eq(&masked(&ran.err));
 }
 
 #[test]
