@@ -4,7 +4,7 @@ use math::{DVec3, Frame, Vec3};
 use sampling::{Domain, Sampler};
 
 use crate::partition::Partition;
-use crate::stats::{chi2_p_value, z_p_value};
+use crate::stats::{chi2_p_value, exceeds, z_p_value};
 
 /// A rectangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,14 +78,14 @@ impl Chi2 {
     /// What is wrong at the level `significance`: histogram, mass, or a density that integrates to more than 1.
     pub fn failures(&self, significance: f64) -> Vec<String> {
         let mut failures = Vec::new();
-        if !(self.p_value >= significance) {
+        if self.p_value < significance {
             failures
                 .push(format!("chi² {:.1} with {} dof, p = {:.1e}", self.statistic, self.dof, self.p_value));
         }
-        if !(self.mass_p_value >= significance) {
+        if self.mass_p_value < significance {
             failures.push(format!("density integrates to {:.5}, draws to {:.5}", self.integral, self.share));
         }
-        if !(self.integral <= 1.0 + 2.0 * QUADRATURE_ERROR) {
+        if exceeds(self.integral, 1.0 + 2.0 * QUADRATURE_ERROR) {
             failures.push(format!("density integrates to {:.5} > 1", self.integral));
         }
         failures
@@ -247,6 +247,12 @@ mod tests {
         let upper = |w: Vec3| if w.z > 0.3 { f64::from(warp::SPHERE_PDF_W) } else { 0.0 };
         let t = chi2_sphere(&s, |r| Some(warp::sphere(r.next_2d())).filter(|w| w.z > 0.3), upper);
         assert_eq!(t.failures(LEVEL), [""; 0], "{t:?}");
+        let nan = chi2_sphere(
+            &s,
+            |r| Some(warp::sphere(r.next_2d())),
+            |w| if w.z > 0.9 { f64::NAN } else { 0.0796 },
+        );
+        assert!(!nan.failures(LEVEL).is_empty(), "{nan:?}");
         assert!((t.integral - 0.35).abs() < QUADRATURE_ERROR && (t.share - 0.35).abs() < 0.01, "{t:?}");
     }
 

@@ -3,7 +3,7 @@ use sampling::{Domain, Sampler};
 
 use crate::chi2::{Chart, Chi2, QUADRATURE_ERROR, Settings, chi2_sphere};
 use crate::partition::Partition;
-use crate::stats::{Moments, z_p_value};
+use crate::stats::{Moments, exceeds, z_p_value};
 
 /// A direction with what its sampler says of it.
 #[derive(Clone, Copy, Debug)]
@@ -49,14 +49,14 @@ impl DirectionReport {
         if self.invalid > 0 {
             failures.push(format!("{} values are negative or not finite", self.invalid));
         }
-        if !(self.weight_error <= self.rounding) {
+        if exceeds(self.weight_error, self.rounding) {
             failures.push(format!("weight·density differs from the value by {:.2e}", self.weight_error));
         }
-        if !(self.pdf_error <= self.rounding) {
+        if exceeds(self.pdf_error, self.rounding) {
             failures.push(format!("pdf of a draw differs from the density by {:.2e}", self.pdf_error));
         }
         let tolerance = 2.0 * QUADRATURE_ERROR * self.integral.max(1e-3);
-        if !(z_p_value(self.weights.z(self.integral, tolerance)) >= significance) {
+        if z_p_value(self.weights.z(self.integral, tolerance)) < significance {
             failures.push(format!(
                 "mean weight {:.5} ± {:.5}, value integrates to {:.5}",
                 self.weights.mean,

@@ -24,7 +24,7 @@ fn split(points: &mut [[f64; 2]]) -> Option<(usize, f64, usize)> {
     let middle = points.len() / 2;
     points.sort_unstable_by(|a, b| a[axis].total_cmp(&b[axis]));
     let (a, b) = (points[middle - 1][axis], points[middle][axis]);
-    (b > a).then(|| (axis, 0.5 * (a + b), middle))
+    (b > a).then_some((axis, 0.5 * (a + b), middle))
 }
 
 fn halves(r: &Rect, axis: usize, at: f64) -> (Rect, Rect) {
@@ -85,12 +85,12 @@ const POINTS_PER_PIECE: usize = 4;
 const DEPTH: u32 = 12;
 
 fn integrate_guided(f: &impl Fn([f64; 2]) -> f64, r: &Rect, points: &mut [[f64; 2]], tolerance: f64) -> f64 {
-    if points.len() > POINTS_PER_PIECE {
-        if let Some((axis, at, middle)) = split(points) {
-            let (low, high) = halves(r, axis, at);
-            let (a, b) = points.split_at_mut(middle);
-            return integrate_guided(f, &low, a, tolerance) + integrate_guided(f, &high, b, tolerance);
-        }
+    if points.len() > POINTS_PER_PIECE
+        && let Some((axis, at, middle)) = split(points)
+    {
+        let (low, high) = halves(r, axis, at);
+        let (a, b) = points.split_at_mut(middle);
+        return integrate_guided(f, &low, a, tolerance) + integrate_guided(f, &high, b, tolerance);
     }
     let (x, y) = (graded_cuts(r, points, 0), graded_cuts(r, points, 1));
     let mut sum = 0.0;

@@ -25,7 +25,8 @@ fn refine(f: &impl Fn([f64; 2]) -> f64, r: &Rect, coarse: f64, tolerance: f64, d
     ];
     let values = quads.map(|q| lobatto(f, &q));
     let fine: f64 = values.iter().sum();
-    if depth == 0 || (fine - coarse).abs() <= tolerance {
+    // NaN stays NaN, however finely it is cut.
+    if depth == 0 || fine.is_nan() || (fine - coarse).abs() <= tolerance {
         return fine;
     }
     quads.iter().zip(values).map(|(q, v)| refine(f, q, v, tolerance, depth - 1)).sum()

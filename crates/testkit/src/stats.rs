@@ -22,6 +22,11 @@ pub fn z_p_value(z: f64) -> f64 {
     2.0 * Normal::standard().sf(z.abs())
 }
 
+/// Whether `x` is not known to be at most `bound`: NaN exceeds everything.
+pub(crate) fn exceeds(x: f64, bound: f64) -> bool {
+    x.is_nan() || x > bound
+}
+
 /// Mean and variance of a stream of numbers (Welford 1962).
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Moments {
@@ -60,9 +65,12 @@ impl Moments {
     }
 
     /// Distance of the mean from `expected` in standard errors. `tolerance` (absolute, e.g. the error of a
-    /// quadrature) is taken off the distance first. Infinite where values that do not vary miss `expected`.
+    /// quadrature) is taken off the distance first. Infinite where values that do not vary miss `expected`, NaN where one of them is.
     pub fn z(&self, expected: f64, tolerance: f64) -> f64 {
         let d = self.mean - expected;
+        if d.is_nan() {
+            return f64::NAN;
+        }
         let excess = (d.abs() - tolerance).max(0.0);
         if excess == 0.0 { 0.0 } else { excess.copysign(d) / self.standard_error() }
     }
@@ -117,5 +125,6 @@ mod tests {
         let n = Moments::of((0..100_000).map(|_| 1.02 * f64::from(s.next_1d())));
         assert!(z_p_value(m.z_between(&n)) < 1e-9 && welch_p_value(&m, &n).unwrap() < 1e-9);
         assert!((m.variance() - 1.0 / 12.0).abs() < 1e-3);
+        assert_eq!(z_p_value(Moments::of([0.5, f64::NAN, 0.5]).z(0.5, 0.1)), 0.0);
     }
 }
