@@ -75,17 +75,17 @@ impl Plastic {
         f
     }
 
-    /// Probability of the coat among the admitted lobes: in proportion to the energy. `None` where there is none.
+    /// Probability of the coat among the admitted lobes: nearly in proportion to the energy (the mean of
+    /// the coat is left out: it costs logarithms). `None` where there is none.
     #[inline]
     fn p_coat(&self, cos_o: f32, allowed: Lobes) -> Option<f32> {
         let e = self.coat(cos_o);
         let s = if allowed.contains(Self::coat_lobes(self.alpha)) { e } else { 0.0 };
-        let d = if allowed.contains(diffuse::LOBES) { (1.0 - e) * self.base_albedo().max() } else { 0.0 };
+        let d = if allowed.contains(diffuse::LOBES) { (1.0 - e) * self.base.max() * math::PI } else { 0.0 };
         (s + d > 0.0).then(|| s / (s + d))
     }
 
     /// Reflectance of the base through the coat, over 1 − E(o).
-    #[inline]
     fn base_albedo(&self) -> Lanes {
         self.base * (math::PI * one_minus_mean(self.eta, self.alpha))
     }
