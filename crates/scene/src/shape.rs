@@ -73,6 +73,10 @@ fn blank(hit: &accel::Hit) -> SurfaceInteraction {
     }
 }
 
+/// Rounded operations that `t` of a triangle is allowed for each unit of distance to its farthest corner; more than
+/// the tests below need.
+const REACH_ROUNDINGS: u32 = 3;
+
 #[inline]
 fn triangle(mesh: &TriangleMesh, hit: &accel::Hit) -> SurfaceInteraction {
     let [i0, i1, i2] = mesh.indices[hit.prim as usize].map(|i| i as usize);
@@ -84,8 +88,12 @@ fn triangle(mesh: &TriangleMesh, hit: &accel::Hit) -> SurfaceInteraction {
     let cross = e1.cross(e2);
     let mut s = blank(hit);
     s.p = q0 + q1 + q2;
-    // Pharr, Jakob & Humphreys 2023, §6.8.5: barycentric interpolation, seven rounded operations.
-    s.p_error = (q0.abs() + q1.abs() + q2.abs()) * gamma(7);
+    // Barycentric interpolation rounds seven times (Pharr, Jakob & Humphreys 2023, §6.8.5). A ray that starts here
+    // must besides be farther off the plane than the error of the `t` with which the triangle itself is met, which
+    // grows with the distance of its corners and mixes the axes: so the box is a cube, and never flat.
+    let reach = (p0 - s.p).abs().max((p1 - s.p).abs()).max((p2 - s.p).abs()).max_element();
+    let rounding = (q0.abs() + q1.abs() + q2.abs()).max_element();
+    s.p_error = Vec3::splat(rounding * gamma(7) + reach * gamma(REACH_ROUNDINGS));
     let area2 = cross.length();
     s.ng = if area2 > 0.0 { cross / area2 } else { sliver_normal(p0, p1, p2) };
     s.ns = s.ng;
@@ -122,8 +130,8 @@ fn sphere(center: Vec3, radius: f32, flipped: bool, ray: &Ray, hit: &accel::Hit)
     let n = (ray.at(hit.t) - center).normalize();
     let q = n * radius;
     s.p = center + q;
-    // Normalising and scaling: five rounded operations on q; the sum rounds once more.
-    s.p_error = q.abs() * gamma(5) + s.p.abs() * gamma(1);
+    // Normalising and scaling: five rounded operations on q; the sum rounds once more. A cube, as for triangles.
+    s.p_error = Vec3::splat(radius * gamma(5) + s.p.abs().max_element() * gamma(2));
     s.ng = if flipped { -n } else { n };
     s.ns = s.ng;
     s.flipped = flipped;
@@ -138,7 +146,7 @@ fn disk(center: Vec3, normal: Vec3, radius: f32, ray: &Ray, hit: &accel::Hit) ->
     let mut s = blank(hit);
     let p = ray.at(hit.t);
     s.p = p - normal * (p - center).dot(normal);
-    s.p_error = (s.p.abs() + center.abs()) * gamma(6);
+    s.p_error = Vec3::splat((s.p.abs() + center.abs()).max_element() * gamma(6) + radius * gamma(2));
     s.ng = normal;
     s.ns = normal;
     let frame = math::Frame::from_z(normal);
@@ -167,4 +175,103 @@ pub(crate) fn to_world(mut s: SurfaceInteraction, m: &Transform) -> SurfaceInter
     s.dpdu = m.vector(s.dpdu);
     s.uv_per_length /= scale.max(f32::MIN_POSITIVE);
     s
+}
+
+#[cfg(test)]
+mod tests {
+    use accel::{Bvh, Geometry};
+    use sampling::{Domain, Sampler, warp};
+
+    use super::*;
+
+    /// Rays that leave a surface on either side do not meet the point that they leave: of `shape`, whatever its size
+    /// and place.
+    fn leaves_cleanly(name: &str, make: impl Fn(&mut Sampler) -> Shape) {
+        let mut self_hits = 0;
+        for trial in 0..2000 {
+            let mut s = Sampler::new(1, trial, Domain::Other, 0);
+            let shape = make(&mut s);
+            let mut geometry = Geometry::default();
+            let (aim, size) = match &shape {
+                Shape::Mesh(m) => {
+                    geometry.add_triangles(&m.positions, &m.indices);
+                    (m.positions.iter().sum::<Vec3>() / 3.0, m.bounds().size().length())
+                }
+                Shape::Sphere { center, radius, .. } => {
+                    geometry.add_sphere(*center, *radius);
+                    (*center, *radius)
+                }
+                Shape::Disk { center, normal, radius } => {
+                    geometry.add_disk(*center, *normal, *radius);
+                    (*center, *radius)
+                }
+            };
+            let bvh = Bvh::build(geometry);
+            let object = Object { shape, material: MaterialId(0), light: None };
+            let jitter = warp::sphere(s.next_2d()) * (0.3 * size * s.next_1d());
+            let from = aim + warp::sphere(s.next_2d()) * (size * 3.0);
+            let ray = Ray::new(from, (aim + jitter - from).normalize());
+            let Some(hit) = bvh.closest(&ray) else { continue };
+            let surface = object.interaction(&ray, &hit);
+            for i in 0..100 {
+                let mut w = warp::sphere(s.next_2d());
+                if i % 2 == 0 {
+                    // Grazing.
+                    w = (w - surface.ng * w.dot(surface.ng) * 0.999).normalize();
+                }
+                let leaving = surface.spawn_ray(w);
+                // From inside a sphere the far side is met, at a distance that tells.
+                if let Some(again) = bvh.closest(&leaving)
+                    && leaving.at(again.t).distance(surface.p) < 1e-3 * size * w.dot(surface.ng).abs()
+                {
+                    self_hits += 1;
+                }
+            }
+        }
+        assert_eq!(self_hits, 0, "{name}");
+    }
+
+    fn offset(s: &mut Sampler) -> Vec3 {
+        // On the axes' planes as often as far away.
+        let scale = [0.0, 1.0, 1e3, 1e5][s.next_u32() as usize % 4];
+        warp::sphere(s.next_2d()) * scale
+    }
+
+    #[test]
+    fn rays_that_leave_a_triangle_do_not_meet_it() {
+        leaves_cleanly("triangle", |s| {
+            let size = 10f32.powf(s.next_1d() * 6.0 - 3.0);
+            let o = offset(s);
+            let flat = s.next_u32() % 4;
+            let positions: Vec<Vec3> = (0..3)
+                .map(|_| {
+                    let mut p = warp::sphere(s.next_2d()) * size;
+                    // Axis-aligned planes through 0 have points without any rounding of their own.
+                    if flat < 3 {
+                        p[flat as usize] = 0.0;
+                    }
+                    p + if flat < 3 { Vec3::ZERO } else { o }
+                })
+                .collect();
+            Shape::Mesh(Arc::new(TriangleMesh { positions, indices: vec![[0, 1, 2]], ..Default::default() }))
+        });
+    }
+
+    #[test]
+    fn rays_that_leave_a_sphere_do_not_meet_it() {
+        leaves_cleanly("sphere", |s| Shape::Sphere {
+            radius: 10f32.powf(s.next_1d() * 6.0 - 3.0),
+            center: offset(s) * 0.01,
+            flipped: false,
+        });
+    }
+
+    #[test]
+    fn rays_that_leave_a_disk_do_not_meet_it() {
+        leaves_cleanly("disk", |s| Shape::Disk {
+            radius: 10f32.powf(s.next_1d() * 6.0 - 3.0),
+            center: offset(s) * 0.01,
+            normal: warp::sphere(s.next_2d()),
+        });
+    }
 }
