@@ -1,0 +1,386 @@
+//! What is written reads back as what it was.
+#![allow(clippy::unwrap_used)] // a test may
+
+use std::path::Path;
+
+use nephroid_scenefile::desc::*;
+use nephroid_scenefile::{SceneDesc, Sourced, parse, to_toml};
+
+/// A stream of numbers for making up scenes (SplitMix64, Steele et al. 2014).
+struct Dice(u64);
+
+impl Dice {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn below(&mut self, n: u64) -> u64 {
+        self.next() % n
+    }
+
+    fn coin(&mut self) -> bool {
+        self.below(2) == 1
+    }
+
+    /// Any finite number of 32 bits, often a plain one.
+    fn number(&mut self) -> f32 {
+        match self.below(4) {
+            0 => self.below(9) as f32 - 4.0,
+            1 => (self.below(2000) as f32 - 1000.0) / 100.0,
+            _ => {
+                let x = f32::from_bits(self.next() as u32);
+                if x.is_finite() { x } else { 0.5 }
+            }
+        }
+    }
+
+    fn modest(&mut self) -> f32 {
+        (self.below(1 << 24) as f32 / (1 << 23) as f32 - 1.0) * 10.0
+    }
+
+    fn unit(&mut self) -> f32 {
+        match self.below(4) {
+            0 => 0.5,
+            1 => 1.0,
+            _ => self.below((1 << 24) + 1) as f32 / (1 << 24) as f32,
+        }
+    }
+
+    fn positive(&mut self) -> f32 {
+        let x = self.number().abs();
+        if x > 0.0 { x } else { 1.0 }
+    }
+
+    fn triple(&mut self) -> Triple {
+        [self.number(), self.number(), self.number()]
+    }
+
+    /// Neither zero nor so large that its square overflows a check.
+    fn direction(&mut self) -> Triple {
+        [self.modest(), self.modest(), 11.0 + self.modest()]
+    }
+
+    fn amount(&mut self) -> Triple {
+        if self.coin() { [1.0; 3] } else { [self.number().abs(), self.positive(), self.number().abs()] }
+    }
+
+    fn color(&mut self) -> ColorDesc {
+        match self.below(3) {
+            0 => ColorDesc::texture("te\"x\n"),
+            1 => self.unit().into(),
+            _ => [self.unit(), self.unit(), self.unit()].into(),
+        }
+    }
+
+    fn float(&mut self) -> FloatDesc {
+        if self.coin() { FloatDesc::texture("plain") } else { self.unit().into() }
+    }
+
+    fn ior(&mut self) -> Ior {
+        if self.coin() { "N-BK7".into() } else { (1.0 + self.unit()).into() }
+    }
+
+    fn name(&mut self) -> Option<String> {
+        let number = self.next();
+        self.coin().then(|| format!("Ä.{number} \t'\u{7f}"))
+    }
+
+    fn material(&mut self) -> Material {
+        let kind = match self.below(6) {
+            0 => MaterialKind::Diffuse { color: self.color() },
+            1 => {
+                let (diffuse, exponent) = (self.unit() * 0.5, self.positive().min(1e6));
+                MaterialKind::Phong {
+                    diffuse: diffuse.into(),
+                    specular: 0.5.into(),
+                    exponent: exponent.into(),
+                }
+            }
+            2 => MaterialKind::Mirror { color: self.color() },
+            3 => MaterialKind::Dielectric {
+                ior: self.ior(),
+                color: self.color(),
+                priority: self.next() as i32,
+            },
+            4 => {
+                let (n, k) = ([self.positive(), self.positive(), 1.5], self.amount());
+                let metal = if self.coin() { Metal::from("gold") } else { Metal::Index { n, k } };
+                MaterialKind::Conductor { metal, roughness: self.float() }
+            }
+            _ => MaterialKind::Plastic { color: self.color(), ior: self.ior(), roughness: self.float() },
+        };
+        let glass = matches!(kind, MaterialKind::Dielectric { .. });
+        Material {
+            kind,
+            normal_map: self.coin().then(|| "plain".into()),
+            normal_strength: self.unit() * 2.0,
+            two_sided: glass || self.coin(),
+        }
+    }
+
+    fn material_ref(&mut self) -> MaterialRef {
+        if self.coin() { "m 1".into() } else { self.material().into() }
+    }
+
+    fn steps(&mut self) -> TransformSteps {
+        let step = |dice: &mut Self| match dice.below(5) {
+            0 => TransformStep::Translate(dice.triple()),
+            1 => TransformStep::Rotate { axis: dice.direction(), degrees: dice.number() },
+            2 => TransformStep::Scale(dice.direction().map(|x| if x == 0.0 { 1.0 } else { x })),
+            3 => TransformStep::LookAt { position: [0.0; 3], target: dice.direction(), up: [0.0, 1e3, 1e-3] },
+            _ => {
+                let mut m = [0.0; 16];
+                for (i, x) in m.iter_mut().take(12).enumerate() {
+                    *x = if i % 5 == 0 { 3.0 + dice.unit() } else { dice.unit() };
+                }
+                m[15] = 1.0;
+                TransformStep::Matrix(m)
+            }
+        };
+        (0..self.below(4)).map(|_| step(self)).collect()
+    }
+
+    fn normals(&mut self) -> Normals {
+        match self.below(4) {
+            0 => Normals::Given,
+            1 => Normals::Flat,
+            2 => Normals::Smooth { crease_degrees: 180.0 },
+            _ => Normals::Smooth { crease_degrees: self.unit() * 90.0 },
+        }
+    }
+
+    fn shape(&mut self) -> Shape {
+        let (center, radius) = (self.triple(), self.positive());
+        let (axis, segments) = (self.direction(), 3 + self.below(200) as u32);
+        let tube_segments = 3 + self.below(200) as u32;
+        match self.below(12) {
+            0 => Shape::Sphere { center, radius },
+            1 => Shape::Disk { center, normal: axis, radius },
+            2 => Shape::Quad { origin: center, edge_u: axis, edge_v: [30.0, self.modest(), 0.0] },
+            3 => Shape::Corners { corners: [[0.0; 3], [9.0, 0.0, 0.0], axis, [0.0, 9.0, self.modest()]] },
+            4 => Shape::Mesh { file: "cöw \"1\".ply".into(), normals: self.normals() },
+            5 => {
+                let full = self.coin();
+                Shape::Triangles {
+                    positions: vec![[0.0; 3], [9.0, 0.0, 0.0], axis, [-9.0, 7.5, 1e-12]],
+                    indices: vec![[0, 1, 2], [0, 2, 3]],
+                    vertex_normals: if full { vec![center; 4] } else { vec![] },
+                    uvs: if full { vec![] } else { vec![[self.number(), self.number()]; 4] },
+                    normals: self.normals(),
+                }
+            }
+            6 => Shape::Box { min: [-3.0, -20.0, -1e-3], max: axis.map(|x| x + 10.5) },
+            7 => {
+                let mask = 1 + self.below(31);
+                let parts = (0..5).filter(|i| mask >> i & 1 == 1).map(|i| TEAPOT_PARTS[i]).collect();
+                Shape::Teapot { level: 1 + self.below(256) as u32, parts }
+            }
+            8 => Shape::Lathe {
+                profile: vec![[0.0, 0.0], [radius, self.modest()], [1.0, 3.5]],
+                segments,
+                smooth: self.coin(),
+                closed: self.coin(),
+            },
+            9 => Shape::Cylinder {
+                base: center,
+                axis,
+                radius,
+                height: self.positive(),
+                inward: self.coin(),
+                segments,
+            },
+            10 => Shape::Torus {
+                center,
+                axis,
+                major_radius: radius,
+                minor_radius: 0.25,
+                segments,
+                tube_segments,
+            },
+            _ => Shape::Icosphere { center, radius, level: self.below(10) as u32, smooth: self.coin() },
+        }
+    }
+
+    fn object(&mut self) -> Sourced<Object> {
+        let color = self.amount().map(|x| x.min(1e3));
+        let emission = match self.below(3) {
+            0 => None,
+            1 => Some(EmissionAmount::Radiance(self.amount())),
+            _ => Some(EmissionAmount::Power { watts: self.unit() + 0.5, color }),
+        };
+        let material = if emission.is_none() || self.coin() { Some(self.material_ref()) } else { None };
+        Object {
+            name: self.name(),
+            shape: self.shape().into(),
+            material,
+            transform: self.steps(),
+            flip_normals: self.coin(),
+            emission: emission.map(|amount| Emission { amount, two_sided: self.coin() }.into()),
+        }
+        .into()
+    }
+
+    fn light(&mut self) -> Sourced<Light> {
+        let amount = if self.coin() {
+            PointAmount::Intensity(self.amount())
+        } else {
+            PointAmount::Power { watts: 1.0 + self.unit(), color: self.amount().map(|x| x.min(1e3)) }
+        };
+        let position = self.triple();
+        let kind = match self.below(4) {
+            0 => LightKind::Point { position, amount },
+            1 => {
+                let cone_angle = self.unit() * 179.0 + 1.0;
+                let falloff_angle =
+                    if self.coin() { 5.0f32.min(cone_angle) } else { self.unit() * cone_angle };
+                LightKind::Spot { position, direction: self.direction(), cone_angle, falloff_angle, amount }
+            }
+            2 => LightKind::Directional { direction: self.direction(), irradiance: self.amount() },
+            _ => LightKind::Environment { radiance: self.amount() },
+        };
+        Light { name: self.name(), kind }.into()
+    }
+
+    fn texture(&mut self) -> Texture {
+        let (scale, offset) = ([self.number(), self.number()], [self.number(), self.number()]);
+        let scale = if self.coin() { [scale[0]; 2] } else { scale };
+        if self.coin() {
+            let color = |dice: &mut Self| [dice.unit(), dice.positive(), 0.0].into();
+            return Texture::Checker { a: color(self), b: color(self), scale };
+        }
+        Texture::Image {
+            file: "pic\\ture.png".into(),
+            color_space: if self.coin() { ColorSpace::Srgb } else { ColorSpace::Linear },
+            wrap: [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror][self.below(3) as usize],
+            filter: [TextureFilter::Trilinear, TextureFilter::Bilinear, TextureFilter::Nearest]
+                [self.below(3) as usize],
+            scale,
+            offset,
+        }
+    }
+
+    fn camera(&mut self) -> Camera {
+        let kind = match self.below(3) {
+            0 => CameraKind::Pinhole,
+            1 => CameraKind::ThinLens { lens_radius: self.positive(), focus_distance: None },
+            _ => CameraKind::ThinLens { lens_radius: self.positive(), focus_distance: Some(self.positive()) },
+        };
+        Camera {
+            kind,
+            position: [0.0; 3],
+            look_at: self.direction(),
+            up: [0.0, 1e3, 1e-3],
+            fov: 1.0 + self.unit() * 178.0,
+            fov_axis: [FovAxis::X, FovAxis::Y, FovAxis::Smaller][self.below(3) as usize],
+        }
+    }
+
+    fn scene(&mut self, base: &Path) -> SceneDesc {
+        let kernels = [PhotonFilter::Constant, PhotonFilter::Cone, PhotonFilter::Epanechnikov];
+        let filters =
+            [FilterKind::Box, FilterKind::Gaussian, FilterKind::Mitchell, FilterKind::BlackmanHarris];
+        let mut desc = SceneDesc { base: base.into(), ..SceneDesc::default() };
+        if self.coin() {
+            desc.render = Render {
+                integrator: if self.coin() { IntegratorKind::Path } else { IntegratorKind::PhotonMap },
+                passes: 1 + self.below(1_000_000_000) as u32,
+                seed: self.next(),
+                max_depth: self.coin().then(|| 1 + self.below(u32::MAX as u64) as u32),
+            };
+            desc.film = Film {
+                size: [1 + self.below(20_000) as u32, 1 + self.below(20_000) as u32],
+                filter: filters[self.below(4) as usize],
+                filter_radius: self.coin().then(|| self.unit() + 0.25),
+                exposure: self.modest(),
+                view: if self.coin() { View::Agx } else { View::Srgb },
+            };
+            desc.photon_map = PhotonMap {
+                photons: self.below(1_000_000_001),
+                caustic_photons: self.below(1_000_000_001),
+                knn: 2 + self.below(1000) as u32,
+                caustic_knn: 2 + self.below(1000) as u32,
+                filter: kernels[self.below(3) as usize],
+                caustic_filter: kernels[self.below(3) as usize],
+                radius: self.coin().then(|| self.positive()),
+                caustic_radius: self.coin().then(|| self.positive()),
+                final_gather: self.below(65_537) as u32,
+                caustic_gain: self.number().abs(),
+            };
+        }
+        desc.camera = Some(self.camera().into());
+        for name in ["te\"x\n", "plain"] {
+            desc.textures.insert(name.into(), self.texture().into());
+        }
+        for i in 0..1 + self.below(4) {
+            desc.materials.insert(format!("m {}", i + 1), self.material().into());
+        }
+        desc.objects = (0..self.below(5)).map(|_| self.object()).collect();
+        desc.lights = (0..self.below(3)).map(|_| self.light()).collect();
+        desc.groups.insert(
+            "Gruppe.1".into(),
+            Group { objects: (0..self.below(3)).map(|_| self.object()).collect() }.into(),
+        );
+        desc.instances = (0..self.below(3))
+            .map(|_| {
+                let material = self.coin().then(|| self.material_ref());
+                let group = "Gruppe.1".into();
+                Instance { name: self.name(), group, transform: self.steps(), material }.into()
+            })
+            .collect();
+        desc
+    }
+}
+
+#[test]
+fn scenes_read_back_as_they_were() {
+    let folder = tempfile::tempdir().unwrap();
+    for file in ["pic\\ture.png", "cöw \"1\".ply"] {
+        std::fs::write(folder.path().join(file), "").unwrap();
+    }
+    let path = folder.path().join("scene.toml");
+    let mut dice = Dice(7);
+    for _ in 0..400 {
+        let desc = dice.scene(folder.path());
+        let text = to_toml(&desc);
+        let loaded = parse(&text, &path, &[]);
+        let read = loaded.desc.clone().unwrap_or_else(|| panic!("{text}\n{}", loaded.render()));
+        assert!(read == desc, "{text}\n{read:#?}\n{desc:#?}");
+        assert_eq!(to_toml(&read), text);
+        assert!(nephroid_scenefile::check(&read).iter().all(|d| !d.is_error()));
+    }
+}
+
+#[test]
+fn numbers_keep_every_bit() {
+    let mut dice = Dice(11);
+    let mut desc = SceneDesc::default();
+    for _ in 0..200 {
+        let all: Vec<Triple> = (0..100).map(|_| dice.triple()).collect();
+        let shape = Shape::Triangles {
+            positions: all.clone(),
+            indices: vec![[0, 1, 2]],
+            vertex_normals: vec![],
+            uvs: vec![],
+            normals: Normals::Given,
+        };
+        desc.objects = vec![Object::lamp(shape, Emission::power(1.0)).into()];
+        desc.camera = Some(Camera::default().into());
+        let loaded = parse(&to_toml(&desc), Path::new("x.toml"), &[]);
+        let Some(read) = &loaded.desc else {
+            // A first triangle of extreme numbers has no area that can be told.
+            assert!(loaded.diagnostics.iter().all(|d| d.code == "degenerate"), "{}", loaded.render());
+            continue;
+        };
+        let Shape::Triangles { positions, .. } = &read.objects[0].shape.value else { panic!() };
+        let bits = |all: &[Triple]| all.iter().flat_map(|p| p.map(f32::to_bits)).collect::<Vec<_>>();
+        assert_eq!(bits(positions), bits(&all));
+    }
+}
+
+#[test]
+fn an_empty_description_is_an_empty_text() {
+    assert_eq!(to_toml(&SceneDesc::default()), "");
+}
