@@ -30,10 +30,18 @@ pub struct Query {
     pub position: Vec3,
     /// Unit geometric normal there, on the side whose photons count.
     pub normal: Vec3,
-    /// Radius of [`PhotonMap::gather`]; greatest radius of [`PhotonMap::gather_knn`]. Scene units.
+    /// Radius of [`PhotonMap::gather`]; greatest radius of [`PhotonMap::gather_knn`]. Scene units. Nothing is found
+    /// where it is not above 1.1·10⁻¹⁹; an infinite one gives the weight 0 unless the k-th photon replaces it.
     pub radius: f32,
     /// Profile.
     pub kernel: Kernel,
+}
+
+impl Query {
+    /// Whether 1/r² is a number to work with.
+    fn has_area(&self) -> bool {
+        self.radius > 0.0 && self.radius * self.radius >= f32::MIN_POSITIVE
+    }
 }
 
 /// A photon as a gather sees it.
@@ -189,11 +197,10 @@ impl PhotonMap {
     /// 1996, eq. 7).
     #[inline]
     pub fn gather(&self, query: &Query, mut f: impl FnMut(&PhotonView, f32)) -> usize {
-        let radius2 = query.radius * query.radius;
-        if query.radius.is_nan() || query.radius <= 0.0 || radius2 == 0.0 {
+        if !query.has_area() {
             return 0;
         }
-        let (scan, per_radius2) = (Compatible::new(self, query), radius2.recip());
+        let (scan, per_radius2) = (Compatible::new(self, query), (query.radius * query.radius).recip());
         let mut count = 0;
         self.tree.search_within(query.position, query.radius, &scan, |found| {
             count += found.len();
@@ -219,6 +226,9 @@ impl PhotonMap {
         scratch: &mut Scratch,
         mut f: impl FnMut(&PhotonView, f32),
     ) -> Neighbourhood {
+        if !query.has_area() {
+            return Neighbourhood::default();
+        }
         let k = k.max(2);
         let scan = Compatible::new(self, query);
         let found = self.tree.search_nearest(query.position, k, query.radius, scratch, &scan);

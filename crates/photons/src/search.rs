@@ -71,6 +71,22 @@ struct Pending {
     distance2: f32,
 }
 
+impl Pending {
+    /// Both halves, with the distances of the whole.
+    #[inline]
+    fn children(&self) -> (Self, Self) {
+        let half = self.leaves / 2;
+        let left = Self { node: self.node + 1, leaves: half, ..*self };
+        let right = Self {
+            node: self.node + half,
+            first_leaf: self.first_leaf + half,
+            leaves: self.leaves - half,
+            ..*self
+        };
+        (left, right)
+    }
+}
+
 /// Subtrees wait at most one a level; 2³² points make 2²⁶ leaves.
 const MAX_DEPTH: usize = 32;
 
@@ -113,8 +129,10 @@ impl Scan for Positions<'_> {
     }
 }
 
-/// Leaves that a fixed-radius search asks the memory for before it scans the first of them.
+/// Leaves that a fixed-radius search collects before it scans the first of them.
 const AHEAD: usize = 16;
+/// Subtrees of so many leaves are not walked by a fixed-radius search: each leaf is tested.
+const TESTED: usize = 8;
 
 impl KdTree {
     /// Calls `visit` for each point within `radius` of `center` (boundary included), leaf by leaf.
@@ -152,26 +170,67 @@ impl KdTree {
         }
         let bound = radius * radius;
         let mut found = [0; ROOM];
-        let mut flush = |leaves: &[u32]| {
+        // The radius never changes, so the leaves can be found first and fetched together.
+        self.leaves_within(center, bound, |leaves| {
+            for &leaf in leaves {
+                scan.prefetch(leaf as usize);
+            }
             for &leaf in leaves {
                 let count = scan.scan(leaf as usize, bound, &mut found);
                 visit(&found[..count.min(ROOM)]);
             }
-        };
-        // The radius never changes, so the leaves can be found first and fetched together.
-        let mut leaves = [0; AHEAD];
+        });
+    }
+
+    /// Calls `visit` with a few leaves at a time, all of those whose squared distance from `center` is at most
+    /// `bound`. The order is that of the tree: nothing is gained from near ones first.
+    #[inline]
+    fn leaves_within(&self, center: Vec3, bound: f32, mut visit: impl FnMut(&[u32])) {
+        if self.blocks.is_empty() {
+            return;
+        }
+        let c = center.to_array();
+        let mut leaves = [0; AHEAD + TESTED];
         let mut waiting = 0;
-        self.traverse(center, bound, |leaf, bound| {
-            scan.prefetch(leaf);
-            leaves[waiting] = leaf as u32;
-            waiting += 1;
-            if waiting == AHEAD {
-                flush(&leaves);
+        let mut stack = [self.root(); MAX_DEPTH];
+        let mut depth = 0;
+        let mut at = self.root();
+        loop {
+            while at.leaves as usize > TESTED {
+                let node = &self.nodes[at.node as usize];
+                let axis = (node.axis % 3) as usize;
+                let (mut left, mut right) = at.children();
+                left.offset[axis] = at.offset[axis].max(c[axis] - node.left_max);
+                right.offset[axis] = at.offset[axis].max(node.right_min - c[axis]);
+                let (in_left, in_right) = (square(left.offset) <= bound, square(right.offset) <= bound);
+                at = left;
+                if !in_left {
+                    if !in_right {
+                        at.leaves = 0;
+                        break;
+                    }
+                    at = right;
+                } else if in_right {
+                    stack[depth % MAX_DEPTH] = right;
+                    depth += 1;
+                }
+            }
+            // A few boxes are tested faster than nodes are walked, and without a branch.
+            for leaf in at.first_leaf..at.first_leaf + at.leaves {
+                leaves[waiting] = leaf;
+                waiting += usize::from(box_distance2(&self.leaf_bounds[leaf as usize], center) <= bound);
+            }
+            if waiting >= AHEAD {
+                visit(&leaves[..waiting]);
                 waiting = 0;
             }
-            bound
-        });
-        flush(&leaves[..waiting]);
+            if depth == 0 {
+                break;
+            }
+            depth -= 1;
+            at = stack[depth % MAX_DEPTH];
+        }
+        visit(&leaves[..waiting]);
     }
 
     /// The k least candidates, the k-th in the last place; fewer where there are fewer.
@@ -214,6 +273,12 @@ impl KdTree {
         &scratch.candidates[..count]
     }
 
+    #[inline]
+    fn root(&self) -> Pending {
+        let leaves = self.blocks.len() as u32;
+        Pending { node: 0, first_leaf: 0, leaves, offset: [0.0; 3], distance2: 0.0 }
+    }
+
     /// Calls `visit(leaf, bound)` for the leaves whose squared distance from `center` is at most `bound`, near ones
     /// first as far as the tree knows; `visit` returns the next bound, no greater than the last.
     #[inline]
@@ -222,29 +287,15 @@ impl KdTree {
             return;
         }
         let c = center.to_array();
-        let root = Pending {
-            node: 0,
-            first_leaf: 0,
-            leaves: self.blocks.len() as u32,
-            offset: [0.0; 3],
-            distance2: 0.0,
-        };
-        let mut stack = [root; MAX_DEPTH];
+        let mut stack = [self.root(); MAX_DEPTH];
         let mut depth = 0;
-        let mut at = root;
+        let mut at = self.root();
         loop {
             while at.leaves > 1 {
                 let node = &self.nodes[at.node as usize];
                 let axis = (node.axis % 3) as usize;
                 let (past_left, before_right) = (c[axis] - node.left_max, node.right_min - c[axis]);
-                let half = at.leaves / 2;
-                let mut near = Pending { node: at.node + 1, leaves: half, ..at };
-                let mut far = Pending {
-                    node: at.node + half,
-                    first_leaf: at.first_leaf + half,
-                    leaves: at.leaves - half,
-                    ..at
-                };
+                let (mut near, mut far) = at.children();
                 near.offset[axis] = at.offset[axis].max(past_left);
                 far.offset[axis] = at.offset[axis].max(before_right);
                 if past_left > before_right {

@@ -168,3 +168,15 @@ fn a_million_photons_in_one_point_give_a_finite_estimate() {
     assert_eq!(found.count, 1_000_000, "all within the least radius, {}", found.radius);
     assert!((power - 1.0).abs() < 1e-3 && found.radius > 0.0);
 }
+
+#[test]
+fn radii_without_an_area_find_nothing() {
+    let map = PhotonMap::build(vec![common::photon(Vec3::ZERO, Vec3::Z, 1.0); 100]);
+    for radius in [0.0, -1.0, 1e-25, f32::NAN] {
+        let query = Query { position: Vec3::ZERO, normal: Vec3::Z, radius, kernel: Kernel::Constant };
+        assert_eq!(map.gather(&query, |_, _| panic!("found")), 0);
+        assert_eq!(map.gather_knn(&query, 10, &mut Scratch::new(), |_, _| panic!("found")).count, 0);
+    }
+    let query = Query { position: Vec3::ZERO, normal: Vec3::Z, radius: f32::INFINITY, kernel: Kernel::Cone };
+    assert_eq!(map.gather(&query, |_, w| assert_eq!(w, 0.0)), 100);
+}
