@@ -134,6 +134,13 @@ impl Report {
         }
     }
 
+    /// Counts a mistake that would be left out anyway, so that nobody needs to put it into words; whether it was.
+    pub(crate) fn count_if_full(&mut self) -> bool {
+        let full = self.kept.len() >= MOST;
+        self.left_out += usize::from(full);
+        full
+    }
+
     /// Keeps some; those left out before are forgotten.
     pub(crate) fn retain(&mut self, keep: impl Fn(&Diagnostic) -> bool) {
         self.kept.retain(keep);

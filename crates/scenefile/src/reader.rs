@@ -110,7 +110,7 @@ impl<'a> Reader<'a> {
         let switch = self.section.switch.map(|switch| switch.key);
         for entry in &self.table.entries {
             let known = keys.iter().any(|key| key.name == entry.key) || switch == Some(&entry.key);
-            if known {
+            if known || report.count_if_full() {
                 continue;
             }
             let message = format!("unknown key {} in {}", quoted(&entry.key), self.what);

@@ -120,7 +120,7 @@ impl Checker<'_> {
         name: &Sourced<String>,
         known: &BTreeMap<String, T>,
     ) {
-        if known.contains_key(&name.value) {
+        if known.contains_key(&name.value) || report.count_if_full() {
             return;
         }
         let code = match noun {

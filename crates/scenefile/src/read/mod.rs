@@ -62,6 +62,9 @@ pub(crate) fn scene(report: &mut Report, root: &Table) -> SceneDesc {
 }
 
 fn unknown_table(report: &mut Report, entry: &Entry) {
+    if report.count_if_full() {
+        return;
+    }
     let names = || SECTIONS.iter().filter(|s| s.form != Form::Inline).map(|s| s.name);
     let kind = if matches!(entry.node.value, Value::Table(_) | Value::Array(_)) { "table" } else { "key" };
     let holder =
