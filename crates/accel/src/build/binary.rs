@@ -163,8 +163,7 @@ fn subtree(primitives: &mut [Primitive], nodes: &mut [BinaryNode], first: u32, e
         sweep_split(primitives, &extent)
     } else {
         match count {
-            0..=64 => binned_split::<8>(primitives, &extent),
-            65..=1024 => binned_split::<16>(primitives, &extent),
+            0..=256 => binned_split::<16>(primitives, &extent),
             _ => binned_split::<32>(primitives, &extent),
         }
     };

@@ -189,6 +189,17 @@ pub(super) fn traverse<K: Kernel, const ANY: bool>(
                     stack.push(a.max(b));
                     at = Child(a.min(b) as u32);
                 }
+                // Sorted without a branch that could be mispredicted; more than three are rare.
+                3 if !ANY => {
+                    let a = entry(kernel, bvh, node, &hits, take());
+                    let b = entry(kernel, bvh, node, &hits, take());
+                    let c = entry(kernel, bvh, node, &hits, take());
+                    let (low, high) = (a.min(b), a.max(b));
+                    let rest = high.min(c);
+                    stack.push(high.max(c));
+                    stack.push(low.max(rest));
+                    at = Child(low.min(rest) as u32);
+                }
                 n => {
                     let start = stack.len;
                     for _ in 0..n {
