@@ -29,7 +29,7 @@ impl Frame {
     pub fn from_zx(z: Vec3, x: Vec3) -> Self {
         let t = x - z * z.dot(x);
         let len2 = t.length_squared();
-        if !(len2 > 1e-12 * x.length_squared()) || !len2.is_finite() {
+        if len2 <= 1e-12 * x.length_squared() || !len2.is_finite() {
             return Self::from_z(z);
         }
         let x = t / len2.sqrt();

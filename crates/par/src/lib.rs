@@ -45,7 +45,7 @@ pub fn map_chunks<R: Send>(len: usize, chunk: usize, f: impl Fn(Range<usize>) ->
 
 /// `f` over the indices `0..len`, one task each; results in index order.
 pub fn map<R: Send>(len: usize, f: impl Fn(usize) -> R + Sync) -> Vec<R> {
-    (0..len).into_par_iter().map(|i| f(i)).collect()
+    (0..len).into_par_iter().map(&f).collect()
 }
 
 /// Both closures, at once where a thread is free.
