@@ -134,6 +134,10 @@ impl Report {
         }
     }
 
+    pub(crate) fn has_error(&self) -> bool {
+        self.kept.iter().any(Diagnostic::is_error)
+    }
+
     /// Counts a mistake that would be left out anyway, so that nobody needs to put it into words; whether it was.
     pub(crate) fn count_if_full(&mut self) -> bool {
         let full = self.kept.len() >= MOST;

@@ -97,7 +97,7 @@ pub(crate) fn parse_value(text: &str, start: usize, file: FileId) -> Result<Node
 fn syntax_error(error: &toml::de::Error, text: &str, file: FileId) -> Diagnostic {
     let range = error.span().unwrap_or(text.len()..text.len());
     let span = Span { file, start: range.start, end: range.end };
-    let message = error.message().replace('\n', ", ");
+    let message = error.message().replace('\n', ", ").replace(", expected nothing", "");
     let help = if message.starts_with("duplicate key") {
         Some("each key and each table may be written once; rename or remove one".to_owned())
     } else if message.starts_with("string values must be quoted") {

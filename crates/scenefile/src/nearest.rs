@@ -25,6 +25,7 @@ const SYNONYMS: &[(&str, &[&str])] = &[
     ("emission", &["radiance"]),
     ("emit", &["radiance"]),
     ("path_tracer", &["path"]),
+    ("pathtracer", &["path"]),
     ("filename", &["file"]),
     ("path", &["file"]),
     ("glass", &["dielectric"]),

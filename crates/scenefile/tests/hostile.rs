@@ -4,6 +4,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
+use nephroid_scenefile::diagnostic::CODES;
 use nephroid_scenefile::spec::SECTIONS;
 use nephroid_scenefile::{Loaded, parse};
 
@@ -13,6 +14,9 @@ fn read(text: &str, overrides: &[String]) -> Loaded {
     let rendered = loaded.render();
     assert!(loaded.desc.is_some() != loaded.diagnostics.iter().any(|d| d.is_error()), "{text}\n{rendered}");
     assert!(loaded.diagnostics.len() <= 101);
+    for diagnostic in &loaded.diagnostics {
+        assert!(CODES.iter().any(|(code, _)| *code == diagnostic.code), "{}", diagnostic.code);
+    }
     loaded
 }
 
@@ -164,6 +168,6 @@ fn a_hundred_mistakes_are_shown_and_the_rest_counted() {
         &[],
     );
     assert_eq!(loaded.diagnostics.len(), 101);
-    // 150 radii, no camera, no light (a warning).
-    assert_eq!(loaded.diagnostics[100].message, "52 more mistakes are not shown");
+    // 150 radii and no camera.
+    assert_eq!(loaded.diagnostics[100].message, "51 more mistakes are not shown");
 }

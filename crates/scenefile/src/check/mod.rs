@@ -331,7 +331,11 @@ impl Checker<'_> {
         }
     }
 
+    /// Not after an error: what is missing may have been misspelt.
     fn emptiness(&self, report: &mut Report, whole: Option<Span>) {
+        if report.has_error() {
+            return;
+        }
         let desc = self.desc;
         if desc.objects.is_empty() && desc.instances.is_empty() {
             report.push(

@@ -120,7 +120,11 @@ fn each_named(
         return;
     };
     for entry in &table.entries {
-        if !matches!(entry.node.value, Value::Table(_)) && section.keys.iter().any(|k| k.name == entry.key) {
+        let mut keys =
+            section.keys.iter().chain(section.variants().iter().flat_map(|variant| variant.keys()));
+        let switch = section.switch.is_some_and(|switch| switch.key == entry.key);
+        let value = !matches!(entry.node.value, Value::Table(_));
+        if value && (switch || keys.any(|key| key.name == entry.key)) {
             let message = format!("a {} without a name", section.noun);
             report.push(
                 Diagnostic::error("wrong-type", message)

@@ -46,7 +46,7 @@ impl Range {
         x.is_finite() && above && below
     }
 
-    /// "> 0", "0 to 1", …; empty for any finite number.
+    /// "> 0", "from 0 to 1", …; empty for any finite number.
     pub fn text(&self) -> String {
         let low = if self.open_min { ">" } else { "≥" };
         let high = if self.open_max { "<" } else { "≤" };
@@ -57,7 +57,7 @@ impl Range {
             (true, true) if self.open_min || self.open_max => {
                 format!("{low} {} and {high} {}", self.min, self.max)
             }
-            (true, true) => format!("{} to {}", self.min, self.max),
+            (true, true) => format!("from {} to {}", self.min, self.max),
         }
     }
 }
