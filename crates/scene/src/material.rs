@@ -4,6 +4,22 @@ use math::{Frame, Vec3};
 
 use crate::{Medium, SurfaceInteraction, Texture};
 
+/// Cosine to which a shading normal is bent back where it faces away from a viewer who sees the surface's other side.
+const BENT_COSINE: f32 = 0.01;
+
+/// The frame, unless `wo` lies between the shading and the geometric normal's horizons, as at the silhouette of a
+/// smooth mesh: then its normal is tilted toward `wo` until both agree on the side, where otherwise nothing would be
+/// scattered.
+#[inline]
+fn facing(frame: Frame, hit: &SurfaceInteraction, wo: Vec3) -> Frame {
+    let (cos, side) = (wo.dot(frame.z), wo.dot(hit.ng));
+    if cos * side > 0.0 || side == 0.0 {
+        return frame;
+    }
+    let ns = (frame.z + wo * (BENT_COSINE.copysign(side) - cos)).normalize();
+    Frame::from_zx(ns, frame.x)
+}
+
 /// Index of a material in the scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct MaterialId(pub u32);
@@ -225,7 +241,7 @@ impl Material {
             None => Frame::from_z(hit.ns),
             Some((texture, strength)) => self.bent_frame(hit, texture, strength, lookup),
         };
-        Bsdf::new(kind, frame, hit.ng)
+        Bsdf::new(kind, facing(frame, hit, wo), hit.ng)
     }
 
     fn bent_frame(
