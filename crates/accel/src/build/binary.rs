@@ -191,7 +191,7 @@ fn cost_of(count: u32) -> f32 {
 }
 
 /// Greatest count for which every order along every axis is tried.
-const SWEEP: usize = 8;
+const SWEEP: usize = 16;
 
 /// The best of all cuts of the primitives sorted along one axis; along the longest only, where all of them fit one
 /// pack anyway.
