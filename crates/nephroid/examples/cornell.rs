@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use nephroid::desc::{Camera, Emission, Material, Object, Shape};
-use nephroid::{Control, Event, Job, Output, PictureInfo, SceneDesc, Session, compile, scene_hash};
+use nephroid::{Control, Job, Output, PictureInfo, SceneDesc, Session, compile, scene_hash};
 
 /// A rectangle of the box, which has its middle at the origin and reaches from -1 to 1.
 fn quad(origin: [f32; 3], edge_u: [f32; 3], edge_v: [f32; 3]) -> Shape {
@@ -16,9 +16,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let ball = |x, z, material: Material| {
         Object::new(Shape::Sphere { center: [x, -0.65, z], radius: 0.35 }, material).into()
     };
-    let mut desc = SceneDesc::default();
-    desc.camera = Some(Camera { position: [0.0, 0.0, 3.8], ..Camera::default() }.into());
-    desc.objects = vec![
+    let camera = Camera { position: [0.0, 0.0, 3.7], ..Camera::default() };
+    let objects = vec![
         wall(quad([-1.0, -1.0, 1.0], [2.0, 0.0, 0.0], [0.0, 0.0, -2.0]), white),
         wall(quad([-1.0, 1.0, -1.0], [2.0, 0.0, 0.0], [0.0, 0.0, 2.0]), white),
         wall(quad([-1.0, -1.0, -1.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]), white),
@@ -29,16 +28,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         Object::lamp(quad([-0.25, 0.99, -0.25], [0.5, 0.0, 0.0], [0.0, 0.0, 0.5]), Emission::power(12.0))
             .into(),
     ];
+    let desc = SceneDesc { camera: Some(camera.into()), objects, ..SceneDesc::default() };
     let info = PictureInfo::new(&desc, scene_hash(&desc)?);
     let mut session = Session::new(Job::new(&desc, compile(&desc, 0)?.scene)?, 0)?;
-    session.run(&mut |event| {
-        if let Event::PassDone { done, passes, .. } = event {
-            println!("pass {done} of {passes}");
-        }
-        Control::Continue
-    })?;
-    ["cornell.png", "cornell.exr"]
-        .iter()
-        .try_for_each(|name| Output::new(Path::new(name))?.write(session.film(), &info))?;
+    session.run(&mut |_event| Control::Continue)?;
+    for name in ["cornell.png", "cornell.exr"] {
+        Output::new(Path::new(name))?.write(session.film(), &info)?;
+    }
     Ok(())
 }

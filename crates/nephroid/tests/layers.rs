@@ -1,4 +1,5 @@
 //! The arrows between crates (ARCHITECTURE.md), and what each layer forbids: threads, `unsafe`, clocks, files.
+#![allow(clippy::unwrap_used, reason = "helpers of tests, too")]
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};

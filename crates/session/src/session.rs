@@ -366,7 +366,7 @@ mod tests {
             "pass 5, 4 of 4".into(),
         ]);
         assert_eq!(said, expected);
-        assert_eq!(session.film().pass_ranges(), [2..6]);
+        assert_eq!(session.film().pass_ranges().first(), Some(&(2..6)));
         assert!(session.film().layer(Layer::Direct).iter().all(|v| *v == 3.5), "the mean of 2, 3, 4, 5");
     }
 

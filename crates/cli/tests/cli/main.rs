@@ -1,4 +1,5 @@
 //! The command line as people and scripts meet it.
+#![allow(clippy::unwrap_used, reason = "helpers of tests, too")]
 
 mod harness;
 mod interrupt;

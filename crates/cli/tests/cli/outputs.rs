@@ -12,8 +12,8 @@ fn the_default_output_is_named_after_the_scene() {
     assert_eq!(size(&place.path("box.png")), (16, 12));
     assert_eq!(ran.out, "");
     expect![[r#"
-        global map: 780 photons, _ KiB, typical radius 3.748e-1
-        caustic map: 1005 photons, _ KiB, typical radius 4.470e-2
+        global map: _ stored photons, _ KiB, typical radius _
+        caustic map: _ stored photons, _ KiB, typical radius _
         pass 1/2 (50 %), _ s elapsed, _ s left
         pass 2/2 (100 %), _ s elapsed
         wrote box.png (16x12, 2 passes)
