@@ -11,8 +11,9 @@ use crate::snippet::render_all;
 use crate::source::{FileId, Sources, Span};
 use crate::{document, overrides, read};
 
-/// Bytes of a scene file, at most; larger meshes belong into mesh files.
-pub const MOST_BYTES: u64 = 16 << 20;
+/// Bytes of a scene file, at most: the parser takes up to 150 bytes of memory for each. Large meshes belong into mesh
+/// files.
+pub const MOST_BYTES: u64 = 12 << 20;
 
 /// What became of a scene file.
 #[derive(Clone, Debug)]

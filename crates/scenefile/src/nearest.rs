@@ -79,12 +79,14 @@ pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a s
         {
             synonym = Some((rank, candidate));
         }
-        let letters = folded(candidate);
-        let longer = letters.len().max(wanted.len());
+        // Before anything is allocated: there may be very many candidates.
+        let length = candidate.chars().take(LONGEST + 1).count();
+        let longer = length.max(wanted.len());
         let allowed = (longer / 3).max(1);
-        if letters.len().abs_diff(wanted.len()) > allowed || longer > LONGEST {
+        if length.abs_diff(wanted.len()) > allowed || longer > LONGEST {
             continue;
         }
+        let letters = folded(candidate);
         let d = distance(&wanted, &letters);
         // A single letter says nothing about another.
         if d <= allowed && d < longer && best.is_none_or(|(least, _)| d < least) {

@@ -70,6 +70,9 @@ impl<'a> Reader<'a> {
             if let Some(preset) = switch.preset {
                 return self.section.variant(preset);
             }
+            if report.count_if_full() {
+                return None;
+            }
             let other = nearest(switch.key, self.table.entries.iter().map(|entry| entry.key.as_str()));
             let mut error =
                 Diagnostic::error("missing-key", format!("missing `{}` in {}", switch.key, self.what))
@@ -87,7 +90,7 @@ impl<'a> Reader<'a> {
             return None;
         };
         let variant = self.section.variant(name);
-        if variant.is_none() {
+        if variant.is_none() && !report.count_if_full() {
             let noun = if switch.key == "shape" { "shape" } else { self.section.name.trim_end_matches('s') };
             let kind = if noun == "shape" { "shape".to_owned() } else { format!("kind of {noun}") };
             let message = format!("unknown {kind} {}", quoted(name));
@@ -108,14 +111,14 @@ impl<'a> Reader<'a> {
     fn check_keys(&self, report: &mut Report) {
         let keys = self.keys();
         let switch = self.section.switch.map(|switch| switch.key);
+        let names = || keys.iter().map(|key| key.name).chain(switch);
+        let mut absent: Option<Vec<&str>> = None;
         for entry in &self.table.entries {
             let known = keys.iter().any(|key| key.name == entry.key) || switch == Some(&entry.key);
             if known || report.count_if_full() {
                 continue;
             }
             let message = format!("unknown key {} in {}", quoted(&entry.key), self.what);
-            let names = || keys.iter().map(|key| key.name).chain(switch);
-            let absent = names().filter(|name| self.table.get(name).is_none());
             let others: Vec<&str> = self
                 .section
                 .variants()
@@ -123,7 +126,9 @@ impl<'a> Reader<'a> {
                 .filter(|variant| variant.keys().any(|key| key.name == entry.key))
                 .map(|variant| variant.name)
                 .collect();
-            let help = if let Some(name) = nearest(&entry.key, absent) {
+            let absent =
+                absent.get_or_insert_with(|| names().filter(|name| self.table.get(name).is_none()).collect());
+            let help = if let Some(name) = nearest(&entry.key, absent.iter().copied()) {
                 format!("did you mean `{name}`?")
             } else if let (Some(switch), false) = (switch, others.is_empty()) {
                 format!("only {switch} = {} has it", either(&others))
@@ -153,6 +158,9 @@ impl<'a> Reader<'a> {
 
     /// Reports a missing key.
     pub(crate) fn missing(&self, report: &mut Report, name: &str) {
+        if report.count_if_full() {
+            return;
+        }
         let key = self.key(name);
         let text = key.kind.text();
         let unit = if key.unit.is_empty() { String::new() } else { format!(" in {}", key.unit) };

@@ -9,6 +9,8 @@ use crate::source::{Sources, Span};
 const WIDTH: usize = 120;
 /// Columns kept before the caret when a line is cut.
 const BEFORE: usize = 40;
+/// Bytes of a line looked at on either side of the mark's start.
+const LOOK_AROUND: usize = 1 << 10;
 /// Columns of a tab.
 const TAB: &str = "    ";
 
@@ -49,8 +51,13 @@ fn shown(text: &str, span: Span) -> Shown {
     let start = floor_boundary(text, span.start);
     let line_start = text[..start].rfind('\n').map_or(0, |i| i + 1);
     let line_end = text[start..].find('\n').map_or(text.len(), |i| start + i);
-    let line = text[line_start..line_end].trim_end_matches('\r');
-    let (start, end) = (start - line_start, floor_boundary(text, span.end).saturating_sub(line_start));
+    // Of a very long line only the neighbourhood is looked at.
+    let near = |byte: usize| floor_boundary(text, byte);
+    let window_start = near(start.saturating_sub(LOOK_AROUND)).max(line_start);
+    let window_end = near(start + LOOK_AROUND).min(line_end);
+    let cut = window_start > line_start;
+    let line = text[window_start..window_end].trim_end_matches('\r');
+    let (start, end) = (start - window_start, floor_boundary(text, span.end).saturating_sub(window_start));
     // Characters, their columns, and whether they are marked.
     let mut cells: Vec<(String, usize)> = Vec::new();
     let (mut from, mut to, mut column) = (None, 0, 0);
@@ -72,7 +79,7 @@ fn shown(text: &str, span: Span) -> Shown {
     }
     let from = from.unwrap_or(column);
     let to = to.max(from + 1);
-    if column <= WIDTH {
+    if column <= WIDTH && !cut && window_end == line_end {
         return Shown { line: cells.into_iter().map(|(cell, _)| cell).collect(), from, to };
     }
     // A window around the mark.

@@ -511,6 +511,26 @@ fn nothing_at_all() {
 }
 
 #[test]
+fn doubts_about_a_scene_that_can_be_rendered() {
+    let text = "[camera]\nposition = [0, 1, 5]\nlook_at = [0, 1, 0]\n";
+    assert!(parse(text, Path::new("box.toml"), &[]).desc.is_some());
+    check(
+        text,
+        expect![[r#"
+        warning[empty-scene]: the scene has no object
+         --> box.toml
+          = help: add [[objects]]
+
+        warning[no-light]: nothing emits light: the picture will be black
+         --> box.toml
+          = help: add [[lights]], or give an object `radiance` or `power`
+
+        2 warnings
+    "#]],
+    );
+}
+
+#[test]
 fn wrong_brackets() {
     check(
         "[camera]\nposition = [0, 1, 5]\nlook_at = [0, 0, 0]\n[objects]\nshape = \"sphere\"\n[[film]]\nsize = [1, 1]\n\
@@ -911,9 +931,9 @@ fn files_that_are_no_scenes() {
     );
     check(
         "huge.toml",
-        Some(&vec![b'\n'; (16 << 20) + 1]),
+        Some(&vec![b'\n'; (12 << 20) + 1]),
         expect![[r#"
-        error[file]: the scene FOLDER/huge.toml is larger than 16 MiB
+        error[file]: the scene FOLDER/huge.toml is larger than 12 MiB
          --> FOLDER/huge.toml
           = help: put large meshes into PLY or OBJ files and name these
 
