@@ -88,7 +88,7 @@ pub fn describe(topic: &str) -> Result<String, UnknownTopic> {
     }
     let name = topic.trim_matches(['[', ']']).trim_end_matches(".NAME");
     if name == "errors" {
-        return Ok(CODES.iter().map(|(code, doc)| format!("{code:<18}{doc}\n")).collect());
+        return Ok(CODES.iter().map(|(code, doc)| format!("{code:<20}{doc}\n")).collect());
     }
     if let Some((_, doc, text)) = PAGES.iter().find(|page| page.0 == name) {
         return Ok(format!("{doc}\n\n{text}"));

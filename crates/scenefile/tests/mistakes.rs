@@ -389,6 +389,32 @@ fn names_that_lead_nowhere() {
 }
 
 #[test]
+fn substances_that_nobody_measured() {
+    check_in_scene(
+        "[materials.a]\nkind = \"conductor\"\nmetal = \"glod\"\n\
+         [materials.b]\nkind = \"dielectric\"\nior = \"watre\"\n\
+         [[objects]]\nshape = \"sphere\"\nmaterial = \"a\"\n",
+        expect![[r#"
+            error[unknown-substance]: unknown metal `glod` in material `a`
+             --> box.toml:5:9
+              |
+            5 | metal = "glod"
+              |         ^^^^^^
+              = help: did you mean `gold`?
+
+            error[unknown-substance]: unknown substance `watre` in material `b`
+             --> box.toml:8:7
+              |
+            8 | ior = "watre"
+              |       ^^^^^^^
+              = help: did you mean `water`?
+
+            2 errors
+        "#]],
+    );
+}
+
+#[test]
 fn shapes_without_extent() {
     check_in_scene(
         "[[objects]]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [1, 0, 1]\nradiance = 1\n\

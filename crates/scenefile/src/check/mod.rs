@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
 use crate::desc::{
-    ColorDesc, EmissionAmount, FloatDesc, LightKind, Material, MaterialKind, MaterialRef, Object,
+    ColorDesc, EmissionAmount, FloatDesc, Ior, LightKind, Material, MaterialKind, MaterialRef, Metal, Object,
     PointAmount, SceneDesc, Shape, Texture, TransformStep, Triple,
 };
 use crate::diagnostic::{Diagnostic, Report, quoted};
@@ -265,9 +265,20 @@ impl Checker<'_> {
                     );
                 }
             }
-            MaterialKind::Dielectric { color, .. } => self.color(report, what, color),
-            MaterialKind::Conductor { roughness, .. } => self.float(report, what, roughness),
-            MaterialKind::Plastic { color, roughness, .. } => {
+            MaterialKind::Dielectric { ior, color, .. } => {
+                substance_of(report, what, ior);
+                self.color(report, what, color);
+            }
+            MaterialKind::Conductor { metal, roughness } => {
+                if let Metal::Named(name) = metal
+                    && color::named_metal(name).is_none()
+                {
+                    unknown_substance(report, "metal", what, name, color::metal_names());
+                }
+                self.float(report, what, roughness);
+            }
+            MaterialKind::Plastic { color, ior, roughness } => {
+                substance_of(report, what, ior);
                 self.color(report, what, color);
                 self.float(report, what, roughness);
             }
@@ -359,6 +370,34 @@ impl Checker<'_> {
             );
         }
     }
+}
+
+/// The name of a refractive index must be known.
+fn substance_of(report: &mut Report, what: &str, ior: &Ior) {
+    if let Ior::Glass(name) = ior
+        && color::named_ior(name).is_none()
+    {
+        unknown_substance(report, "substance", what, name, color::ior_names());
+    }
+}
+
+fn unknown_substance(
+    report: &mut Report,
+    noun: &str,
+    what: &str,
+    name: &Sourced<String>,
+    known: impl Iterator<Item = &'static str>,
+) {
+    if report.count_if_full() {
+        return;
+    }
+    let known: Vec<&str> = known.collect();
+    let help = match nearest(name, known.iter().copied()) {
+        Some(near) => format!("did you mean {}?", quoted(near)),
+        None => format!("known are {}", known.join(", ")),
+    };
+    let message = format!("unknown {noun} {} in {what}", quoted(name));
+    report.push(Diagnostic::error("unknown-substance", message).at(name.span).help(help));
 }
 
 fn power(report: &mut Report, what: &str, watts: f32, color: Triple, span: Option<Span>) {
