@@ -26,7 +26,12 @@ pub enum Event<'a> {
         /// What each holds.
         reports: &'a [MapReport],
     },
-    /// A pass is in the film.
+    /// A pass begins; a stop before it is heeded at once.
+    PassStarted {
+        /// Its index.
+        pass: u64,
+    },
+    /// A pass is in the film. The next one may have begun.
     PassDone {
         /// Its index.
         pass: u64,
@@ -50,7 +55,7 @@ pub enum Event<'a> {
 pub enum Control {
     /// Go on.
     Continue,
-    /// Stop after the pass that runs, or before the first one of the next run.
+    /// Stop after the pass that runs; each run renders one at least.
     Stop,
 }
 

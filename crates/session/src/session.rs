@@ -136,76 +136,47 @@ impl Session {
         })
     }
 
-    /// Renders the passes that are missing, in index order. The observer hears of every step.
+    /// Renders the passes that are missing, in index order. The observer hears of every step, on any thread.
+    ///
+    /// A pass is folded into the film while the next one is at work, so that no thread waits for the sums.
     ///
     /// # Errors
     /// Where the film cannot take a pass; those before it stay.
-    pub fn run(&mut self, observer: &mut dyn FnMut(Event<'_>) -> Control) -> Result<Outcome, SessionError> {
-        let start = Instant::now();
-        let before = self.done;
-        let mut eye = Duration::ZERO;
-        let mut teller = Teller { observer, stop: false };
-        while self.done < self.passes_total() {
-            let pass = self.passes.start + self.done;
-            self.prepare_maps(pass, &mut teller);
-            let (contribution, elapsed) = self.render(pass);
-            let contribution = contribution?;
-            eye += elapsed;
-            self.film.add(pass, &contribution)?;
-            self.done += 1;
-            if let Some(warning) = nonfinite(pass, &contribution) {
-                teller.tell(Event::Warning(warning));
-            }
-            let (done, passes) = (self.done, self.passes_total());
-            teller.tell(Event::PassDone {
-                pass,
-                done,
-                passes,
-                elapsed: start.elapsed(),
-                remaining: eye.mul_f64((passes - done) as f64 / (done - before) as f64),
-                film: &self.film,
-            });
-            if teller.stop && self.done < self.passes_total() {
+    pub fn run(
+        &mut self,
+        observer: &mut (dyn FnMut(Event<'_>) -> Control + Send),
+    ) -> Result<Outcome, SessionError> {
+        let total = self.passes.end - self.passes.start;
+        let first = self.passes.start + self.done;
+        let mut run = Run {
+            scene: &self.scene,
+            integrator: &*self.integrator,
+            workers: &self.workers,
+            maps: &mut self.maps,
+            timings: &mut self.timings,
+            eye: Duration::ZERO,
+            rendered: 0,
+            fold: Fold {
+                film: &mut self.film,
+                observer,
+                stop: false,
+                pending: None,
+                done: &mut self.done,
+                total,
+                start: Instant::now(),
+                per_pass: Duration::ZERO,
+            },
+        };
+        for pass in first..self.passes.end {
+            run.fold.tell(Event::PassStarted { pass });
+            if run.fold.stop && pass > first {
+                run.finish()?;
                 return Ok(Outcome::Stopped);
             }
+            run.pass(pass)?;
         }
+        run.finish()?;
         Ok(Outcome::Finished)
-    }
-
-    /// The maps that `pass` looks up, unless they are at hand.
-    fn prepare_maps(&mut self, pass: u64, teller: &mut Teller<'_>) {
-        let wanted = self.integrator.map_index(pass);
-        if self.maps.as_ref().map(|(index, _)| *index) == wanted {
-            return;
-        }
-        self.maps = None;
-        let Some(index) = wanted else { return };
-        let (scene, integrator, workers) = (&*self.scene, &*self.integrator, &self.workers);
-        let photons = teller.phase(&mut self.timings, Phase::Photons, || {
-            workers.run(|| integrator.trace_photons(scene, index))
-        });
-        if let Some(&(path, depth)) = photons.nonfinite.first() {
-            let count = photons.nonfinite.len() as u64;
-            teller.tell(Event::Warning(Warning::NonFinitePhotons { map_index: index, path, depth, count }));
-        }
-        let maps = teller.phase(&mut self.timings, Phase::MapBuild, || {
-            workers.run(|| integrator.build_maps(scene, photons))
-        });
-        teller.tell(Event::MapsReady { map_index: index, reports: &maps.reports() });
-        self.maps = Some((index, maps));
-    }
-
-    fn render(&mut self, pass: u64) -> (Result<PassFilm, FilmError>, Duration) {
-        let start = Instant::now();
-        let maps = self.maps.as_ref().map(|(_, maps)| maps);
-        let contribution = self.workers.run(|| self.integrator.render(&self.scene, maps, pass));
-        let elapsed = start.elapsed();
-        self.timings.add(Phase::EyePasses, elapsed);
-        (contribution, elapsed)
-    }
-
-    fn passes_total(&self) -> u64 {
-        self.passes.end - self.passes.start
     }
 
     /// The film so far.
@@ -234,25 +205,122 @@ impl Session {
     }
 }
 
-/// The observer, and whether it wants to stop.
-struct Teller<'a> {
-    observer: &'a mut dyn FnMut(Event<'_>) -> Control,
-    stop: bool,
+/// One run of a session.
+struct Run<'a> {
+    scene: &'a Scene,
+    integrator: &'a dyn Integrator,
+    workers: &'a Workers,
+    maps: &'a mut Option<(u64, Maps)>,
+    timings: &'a mut Timings,
+    /// Spent on eye passes, and how many.
+    eye: Duration,
+    rendered: u32,
+    fold: Fold<'a>,
 }
 
-impl Teller<'_> {
+impl Run<'_> {
+    fn pass(&mut self, pass: u64) -> Result<(), FilmError> {
+        self.prepare_maps(pass)?;
+        let start = Instant::now();
+        let (scene, integrator, maps) =
+            (self.scene, self.integrator, self.maps.as_ref().map(|(_, maps)| maps));
+        let contribution = self.fold.meanwhile(self.workers, || integrator.render(scene, maps, pass))??;
+        self.fold.pending = Some((pass, contribution));
+        let elapsed = start.elapsed();
+        self.timings.add(Phase::EyePasses, elapsed);
+        self.eye += elapsed;
+        self.rendered += 1;
+        self.fold.per_pass = self.eye / self.rendered;
+        Ok(())
+    }
+
+    /// The maps that `pass` looks up, unless they are at hand.
+    fn prepare_maps(&mut self, pass: u64) -> Result<(), FilmError> {
+        let wanted = self.integrator.map_index(pass);
+        if self.maps.as_ref().map(|(index, _)| *index) == wanted {
+            return Ok(());
+        }
+        *self.maps = None;
+        let Some(index) = wanted else { return Ok(()) };
+        let (scene, integrator) = (self.scene, self.integrator);
+        let photons = self.phase(Phase::Photons, || integrator.trace_photons(scene, index))?;
+        if let Some(&(path, depth)) = photons.nonfinite.first() {
+            let count = photons.nonfinite.len() as u64;
+            self.fold.tell(Event::Warning(Warning::NonFinitePhotons {
+                map_index: index,
+                path,
+                depth,
+                count,
+            }));
+        }
+        let maps = self.phase(Phase::MapBuild, || integrator.build_maps(scene, photons))?;
+        self.fold.tell(Event::MapsReady { map_index: index, reports: &maps.reports() });
+        *self.maps = Some((index, maps));
+        Ok(())
+    }
+
+    fn phase<R: Send>(&mut self, phase: Phase, work: impl FnOnce() -> R + Send) -> Result<R, FilmError> {
+        self.fold.tell(Event::PhaseStarted(phase));
+        let start = Instant::now();
+        let result = self.fold.meanwhile(self.workers, work);
+        let elapsed = start.elapsed();
+        self.timings.add(phase, elapsed);
+        self.fold.tell(Event::PhaseDone { phase, elapsed });
+        result
+    }
+
+    /// Folds the last pass.
+    fn finish(&mut self) -> Result<(), FilmError> {
+        let start = Instant::now();
+        let result = self.fold.flush();
+        self.timings.add(Phase::EyePasses, start.elapsed());
+        result
+    }
+}
+
+/// The film, a pass that waits for it, and who wants to hear of it.
+struct Fold<'a> {
+    film: &'a mut Film,
+    observer: &'a mut (dyn FnMut(Event<'_>) -> Control + Send),
+    stop: bool,
+    pending: Option<(u64, PassFilm)>,
+    /// Passes in the film, and in the end.
+    done: &'a mut u64,
+    total: u64,
+    start: Instant,
+    /// Wall-clock time of an eye pass.
+    per_pass: Duration,
+}
+
+impl Fold<'_> {
     fn tell(&mut self, event: Event<'_>) {
         self.stop |= (self.observer)(event) == Control::Stop;
     }
 
-    fn phase<R>(&mut self, timings: &mut Timings, phase: Phase, f: impl FnOnce() -> R) -> R {
-        self.tell(Event::PhaseStarted(phase));
-        let start = Instant::now();
-        let result = f();
-        let elapsed = start.elapsed();
-        timings.add(phase, elapsed);
-        self.tell(Event::PhaseDone { phase, elapsed });
-        result
+    /// `work` on the workers; one of them first adds the pass that waits.
+    fn meanwhile<R: Send>(
+        &mut self,
+        workers: &Workers,
+        work: impl FnOnce() -> R + Send,
+    ) -> Result<R, FilmError> {
+        let (folded, result) = workers.run(|| par::join(|| self.flush(), work));
+        folded.map(|()| result)
+    }
+
+    /// Adds the pass that waits and tells of it.
+    fn flush(&mut self) -> Result<(), FilmError> {
+        let Some((pass, contribution)) = self.pending.take() else { return Ok(()) };
+        self.film.add(pass, &contribution)?;
+        *self.done += 1;
+        if let Some(warning) = nonfinite(pass, &contribution) {
+            self.tell(Event::Warning(warning));
+        }
+        let (done, passes) = (*self.done, self.total);
+        let remaining = self.per_pass.mul_f64((passes - done) as f64);
+        let event =
+            Event::PassDone { pass, done, passes, elapsed: self.start.elapsed(), remaining, film: self.film };
+        self.stop |= (self.observer)(event) == Control::Stop;
+        Ok(())
     }
 }
 
@@ -337,34 +405,35 @@ mod tests {
                     assert_eq!(film.passes(), done);
                     format!("pass {pass}, {done} of {passes}")
                 }
+                Event::PassStarted { pass } => format!("start {pass}"),
                 Event::Warning(warning) => warning.to_string(),
             });
             Control::Continue
         });
         assert_eq!(outcome, Ok(Outcome::Finished));
-        let maps = |i: u64| {
-            ["Photons", "Photons done", "MapBuild", "MapBuild done"]
-                .map(str::to_owned)
-                .into_iter()
-                .chain([format!("maps {i} (0)")])
-        };
-        let mut expected: Vec<String> = maps(1).collect();
-        expected.insert(
-            2,
-            "2 photons are not finite and dropped from maps 1; the first: path 9 after 2 scattering events"
-                .into(),
-        );
-        expected.extend([
-            "1 value of pass 2 is not finite and left out; the first: pixel 2,1 of layer caustic".into(),
-            "pass 2, 1 of 4".into(),
-            "pass 3, 2 of 4".into(),
-        ]);
-        expected.extend(maps(2));
-        expected.extend([
-            "pass 4, 3 of 4".into(),
-            "1 value of pass 5 is not finite and left out; the first: pixel 2,1 of layer caustic".into(),
-            "pass 5, 4 of 4".into(),
-        ]);
+        let expected = [
+            "start 2",
+            "Photons",
+            "Photons done",
+            "2 photons are not finite and dropped from maps 1; the first: path 9 after 2 scattering events",
+            "MapBuild",
+            "MapBuild done",
+            "maps 1 (0)",
+            "start 3",
+            "1 value of pass 2 is not finite and left out; the first: pixel 2,1 of layer caustic",
+            "pass 2, 1 of 4",
+            "start 4",
+            "Photons",
+            "pass 3, 2 of 4",
+            "Photons done",
+            "MapBuild",
+            "MapBuild done",
+            "maps 2 (0)",
+            "start 5",
+            "pass 4, 3 of 4",
+            "1 value of pass 5 is not finite and left out; the first: pixel 2,1 of layer caustic",
+            "pass 5, 4 of 4",
+        ];
         assert_eq!(said, expected);
         assert_eq!(session.film().pass_ranges().first(), Some(&(2..6)));
         assert!(session.film().layer(Layer::Direct).iter().all(|v| *v == 3.5), "the mean of 2, 3, 4, 5");
