@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use nephroid::desc::{FilterKind, IntegratorKind, Render, View};
-use nephroid::{Light, LightId, Scene, SceneDesc, scene_hash};
+use nephroid::{Light, LightId, Scene, SceneDesc, film_bytes, scene_hash};
 
 use crate::args::InfoArgs;
 use crate::failure::{Failure, OK, Outcome};
@@ -83,7 +83,9 @@ fn contents(text: &mut String, scene: &Scene) {
     let bounds =
         if b.is_empty() { "empty".to_owned() } else { format!("{} to {}", point(b.min), point(b.max)) };
     row(text, "bounds", &bounds);
-    let parts = [("meshes", s.mesh_bytes), ("BVH", s.bvh_bytes), ("textures", s.texture_bytes)];
+    let film = film_bytes(scene.resolution());
+    let parts =
+        [("meshes", s.mesh_bytes), ("BVH", s.bvh_bytes), ("textures", s.texture_bytes), ("film", film)];
     let memory: Vec<_> = parts.iter().map(|(name, n)| format!("{name} {}", bytes(*n))).collect();
     row(text, "memory", &memory.join(", "));
 }

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use nephroid::{
-    Control, Event, Job, Output, Phase, PictureInfo, Session, Timings, Warning, check_outputs, scene_hash,
+    Control, Event, Job, Output, Phase, PictureError, PictureInfo, Session, Timings, Warning, check_outputs,
+    overwritten_inputs, scene_hash,
 };
 
 use crate::args::RenderArgs;
@@ -19,9 +20,13 @@ use crate::signals::{INTERRUPTED, Interrupt};
 pub fn run(args: &RenderArgs) -> Outcome {
     let (outputs, messages) = match check_outputs(&wanted_outputs(args)) {
         Ok(outputs) => (outputs, Vec::new()),
-        Err(errors) => (Vec::new(), errors.iter().map(|e| format!("{e}\n  = help: {}", e.help())).collect()),
+        Err(errors) => (Vec::new(), errors.iter().map(refusal).collect()),
     };
     let mut described = describe(&args.scene, messages)?;
+    let replaced = overwritten_inputs(&outputs, &described.desc);
+    if !replaced.is_empty() {
+        return Err(Failure::Usage(replaced.iter().map(refusal).collect()));
+    }
     let (scene, warnings) = compiled(&mut described, args.threads)?;
     if !warnings.is_empty() {
         say::say(say::painted(&warnings).trim_end());
@@ -81,6 +86,10 @@ fn wanted_outputs(args: &RenderArgs) -> Vec<PathBuf> {
     let mut name = stem.to_os_string();
     name.push(".png");
     vec![Path::new(&name).to_path_buf()]
+}
+
+fn refusal(error: &PictureError) -> String {
+    format!("{error}\n  = help: {}", error.help())
 }
 
 fn tell(progress: &mut Progress, event: Event<'_>) {

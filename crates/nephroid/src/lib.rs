@@ -46,6 +46,6 @@ pub use scenefile::{
 };
 pub use session::{
     CompileError, Compiled, Control, Event, Job, Outcome, Output, OutputKind, Overrides, Phase, PictureError,
-    PictureInfo, SceneHash, Session, SessionError, Timings, Warning, check_outputs, compile, scene_hash,
-    settings,
+    PictureInfo, SceneHash, Session, SessionError, Timings, Warning, check_outputs, compile, film_bytes,
+    overwritten_inputs, scene_hash, settings,
 };

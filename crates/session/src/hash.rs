@@ -50,7 +50,7 @@ fn canonical(desc: &SceneDesc) -> SceneDesc {
 }
 
 /// The files that a description names, each once, in order of their names.
-fn files(desc: &SceneDesc) -> BTreeSet<&Path> {
+pub(crate) fn files(desc: &SceneDesc) -> BTreeSet<&Path> {
     let textures = desc.textures.values().filter_map(|texture| match &texture.value {
         Texture::Image { file, .. } => Some(file.value.as_path()),
         Texture::Checker { .. } => None,

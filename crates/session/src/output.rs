@@ -31,6 +31,8 @@ pub enum PictureError {
     Extension(PathBuf),
     /// Two outputs are one file.
     Twice(PathBuf),
+    /// The scene reads this file.
+    Input(PathBuf),
     /// The file cannot be written.
     File(film::OutputError),
 }
@@ -42,7 +44,7 @@ impl PictureError {
             Self::Extension(_) => {
                 "end the name in .exr (linear radiance, all layers) or .png (8 bits, displayed)".into()
             }
-            Self::Twice(_) => "give each picture a name of its own".into(),
+            Self::Twice(_) | Self::Input(_) => "give each picture a name of its own".into(),
             Self::File(error) => error.help(),
         }
     }
@@ -61,6 +63,7 @@ impl fmt::Display for PictureError {
                 None => write!(f, "cannot write {}: its name does not say which format", path.display()),
             },
             Self::Twice(path) => write!(f, "{} is to be written twice", path.display()),
+            Self::Input(path) => write!(f, "cannot write {}: the scene reads this file", path.display()),
             Self::File(error) => write!(f, "{error}"),
         }
     }
@@ -70,7 +73,7 @@ impl std::error::Error for PictureError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match self {
             Self::File(error) => Some(error),
-            Self::Extension(_) | Self::Twice(_) => None,
+            Self::Extension(_) | Self::Twice(_) | Self::Input(_) => None,
         }
     }
 }
@@ -190,6 +193,14 @@ pub fn check_outputs<P: AsRef<Path>>(paths: &[P]) -> Result<Vec<Output>, Vec<Pic
     if errors.is_empty() { Ok(outputs) } else { Err(errors) }
 }
 
+/// Outputs that would replace a file that the scene reads.
+pub fn overwritten_inputs(outputs: &[Output], desc: &SceneDesc) -> Vec<PictureError> {
+    let inputs: Vec<_> =
+        crate::hash::files(desc).into_iter().map(|file| identity(&desc.resolve(file))).collect();
+    let overwrites = |output: &&Output| inputs.contains(&identity(&output.path));
+    outputs.iter().filter(overwrites).map(|output| PictureError::Input(output.path.clone())).collect()
+}
+
 /// Equal for two names of one file in existing folders.
 fn identity(path: &Path) -> (PathBuf, OsString) {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
@@ -228,6 +239,18 @@ mod tests {
         }
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
         assert_eq!(check_outputs(&[at("a.exr"), at("a.png")]).unwrap().len(), 2);
+    }
+
+    #[test]
+    fn what_the_scene_reads_is_not_replaced() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut desc = SceneDesc { base: folder.path().to_owned(), ..SceneDesc::default() };
+        desc.textures.insert("wood".into(), scenefile::desc::Texture::image("wood.png").into());
+        let outputs =
+            ["a.png", "./wood.png", "wood.exr"].map(|n| Output::new(&folder.path().join(n)).unwrap());
+        let said: Vec<_> = overwritten_inputs(&outputs, &desc).iter().map(ToString::to_string).collect();
+        assert_eq!(said.len(), 1, "{said:?}");
+        assert!(said[0].contains("wood.png"));
     }
 
     #[test]

@@ -39,6 +39,8 @@ pub enum SessionError {
     Threads(String),
     /// The job has no pass.
     NoPasses,
+    /// There is no memory for the picture; the bytes that it takes.
+    Memory(u64),
     /// The film refuses: a filter without extent, too many passes.
     Film(FilmError),
 }
@@ -48,6 +50,13 @@ impl fmt::Display for SessionError {
         match self {
             Self::Threads(reason) => write!(f, "threads cannot be started: {reason}"),
             Self::NoPasses => write!(f, "there is no pass to render; one at least is needed"),
+            Self::Memory(bytes) => {
+                write!(
+                    f,
+                    "there is no memory for the picture: it takes {:.1} GiB",
+                    *bytes as f64 / f64::from(1 << 30)
+                )
+            }
             Self::Film(error) => write!(f, "{error}"),
         }
     }
@@ -57,7 +66,7 @@ impl std::error::Error for SessionError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match self {
             Self::Film(error) => Some(error),
-            Self::Threads(_) | Self::NoPasses => None,
+            Self::Threads(_) | Self::NoPasses | Self::Memory(_) => None,
         }
     }
 }
@@ -66,6 +75,19 @@ impl From<FilmError> for SessionError {
     fn from(error: FilmError) -> Self {
         Self::Film(error)
     }
+}
+
+/// Memory that the picture of a render takes, in bytes: the film and two passes, one that is rendered and one that is
+/// folded. 344 bytes a pixel; filters with negative weights take 120 more.
+pub fn film_bytes([width, height]: [u32; 2]) -> u64 {
+    u64::from(width) * u64::from(height) * (192 + 2 * 76)
+}
+
+/// Asks the system for that many bytes, and gives them back. A system that promises more than it has is believed.
+fn check_memory(bytes: u64) -> Result<(), SessionError> {
+    let none = SessionError::Memory(bytes);
+    let Ok(size) = usize::try_from(bytes) else { return Err(none) };
+    Vec::<u8>::new().try_reserve_exact(size).map_err(|_| none)
 }
 
 /// How a run ended.
@@ -104,7 +126,7 @@ impl Session {
     /// A session of `job` on `threads` threads (0: one for each core).
     ///
     /// # Errors
-    /// Where the job has no pass, or more than a film holds, or threads cannot be started.
+    /// Where the job has no pass, or more than a film holds, or there is no memory or thread.
     pub fn new(job: Job, threads: usize) -> Result<Self, SessionError> {
         let integrator = integrators::integrator(&job.settings);
         Self::with_integrator(job.scene, integrator, job.passes, threads)
@@ -122,6 +144,7 @@ impl Session {
         if passes.end - passes.start > Film::MAX_PASSES {
             return Err(FilmError::TooManyPasses.into());
         }
+        check_memory(film_bytes(scene.resolution()))?;
         let workers = Workers::new(threads).map_err(SessionError::Threads)?;
         let [width, height] = scene.resolution().map(|n| n as usize);
         Ok(Self {
@@ -486,6 +509,13 @@ mod tests {
         let refused = |passes: Range<u64>| Session::new(Job { passes, ..job(&desc) }, 1).unwrap_err();
         assert_eq!(refused(3..3), SessionError::NoPasses);
         assert_eq!(refused(0..Film::MAX_PASSES + 1), SessionError::Film(FilmError::TooManyPasses));
+    }
+
+    #[test]
+    fn memory_that_nobody_has_is_refused() {
+        assert_eq!(film_bytes([1000, 1000]), 344_000_000);
+        assert_eq!(check_memory(1 << 20), Ok(()));
+        assert_eq!(check_memory(1 << 62), Err(SessionError::Memory(1 << 62)));
     }
 
     #[test]

@@ -88,6 +88,17 @@ fn outputs_that_cannot_be_written_are_refused_before_the_render() {
 }
 
 #[test]
+fn a_file_that_the_scene_reads_is_not_replaced() {
+    let place = Place::new();
+    place.ok(&["render", "box.toml", "-q", "-o", "wood.png"]);
+    place.write("wood.toml", &format!("{BOX}\n[textures.wood]\nkind = \"image\"\nfile = \"wood.png\"\n"));
+    let before = place.read("wood.png");
+    assert!(refused(&place, &["render", "wood.toml", "-o", "wood.png"]).err.contains("reads"));
+    assert!(refused(&place, &["render", "wood.toml"]).err.contains("reads"), "the default, too");
+    assert_eq!(place.read("wood.png"), before);
+}
+
+#[test]
 fn outputs_and_scene_are_wrong_together() {
     let place = Place::new();
     place.write("bad.toml", &BOX.replace("passes = 2", "passes = 0"));
