@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use nephroid::{
-    Control, Event, Job, Output, Phase, PictureError, PictureInfo, Session, Timings, Warning, check_outputs,
-    overwritten_inputs, scene_hash,
+    Control, Event, Job, Output, Phase, PictureError, PictureInfo, Session, SessionError, Timings, Warning,
+    check_outputs, overwritten_inputs, scene_hash,
 };
 
 use crate::args::RenderArgs;
@@ -36,7 +36,10 @@ pub fn run(args: &RenderArgs) -> Outcome {
     let info = PictureInfo::new(desc, hash);
     let job = Job::new(desc, scene.scene).map_err(Failure::usage)?;
     let passes = job.passes.end - job.passes.start;
-    let mut session = Session::new(job, args.threads).map_err(Failure::runtime)?;
+    let mut session = Session::new(job, args.threads).map_err(|e| match e {
+        SessionError::NoPasses | SessionError::Film(_) => Failure::usage(e),
+        SessionError::Threads(_) | SessionError::Memory(_) => Failure::runtime(e),
+    })?;
 
     let mut progress = Progress::new(args.quiet, passes);
     let handle = progress.clone();

@@ -12,6 +12,7 @@ use scene::Scene;
 
 pub use path::Path;
 pub use photon_map::{MapReport, Maps, PhotonMapper, TracedPhotons};
+pub use photons::Kernel;
 pub use settings::{IntegratorKind, PhotonMapSettings, Settings};
 
 /// What sessions run. Object-safe: sessions meet it once a pass.

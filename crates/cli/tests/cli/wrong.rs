@@ -62,6 +62,8 @@ fn overrides_are_checked_like_the_scene() {
         let ran = refused(&place, &["render", "box.toml", "--set", set]);
         assert!(ran.err.contains("error"), "{set}: {}", ran.err);
     }
+    let many = refused(&place, &["render", "box.toml", "--set", "render.passes=5000000"]);
+    assert!(many.err.contains("4194304"), "{}", many.err);
 }
 
 #[test]
