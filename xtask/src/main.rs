@@ -1,1 +1,48 @@
-fn main() {}
+//! The project's chores: `cargo xtask NAME`.
+#![allow(clippy::print_stdout, clippy::print_stderr)] // it reports
+
+mod bench;
+mod reference;
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+/// What a chore returns: a message for people where it failed.
+type Outcome = Result<(), String>;
+
+/// Name, arguments, what it does, and the function that does it with the rest of the command line.
+type Chore = (&'static str, &'static str, &'static str, fn(&[String]) -> Outcome);
+
+const CHORES: &[Chore] = &[
+    ("bench", "[--quick] [--only PREFIX] [--json FILE]", "measures against peers", bench::run),
+    ("reference", "[--check]", "writes docs/reference.md", reference::run),
+];
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let outcome = match arguments.split_first() {
+        Some((name, rest)) => match CHORES.iter().find(|chore| chore.0 == name) {
+            Some((_, _, _, run)) => run(rest),
+            None => Err(format!("`{name}` is no chore\n{}", usage())),
+        },
+        None => Err(usage()),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("{}", message.trim_end());
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn usage() -> String {
+    let line =
+        |(name, arguments, what, _): &Chore| format!("  cargo xtask {name} {arguments}\n      {what}\n");
+    format!("usage:\n{}", CHORES.iter().map(line).collect::<String>())
+}
+
+/// The root of the repository.
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
