@@ -156,7 +156,7 @@ impl Dice {
         let (center, radius) = (self.triple(), self.positive());
         let (axis, segments) = (self.direction(), 3 + self.below(200) as u32);
         let tube_segments = 3 + self.below(200) as u32;
-        match self.below(12) {
+        match self.below(17) {
             0 => Shape::Sphere { center, radius },
             1 => Shape::Disk { center, normal: axis, radius },
             2 => Shape::Quad { origin: center, edge_u: axis, edge_v: [30.0, self.modest(), 0.0] },
@@ -175,14 +175,30 @@ impl Dice {
             6 => Shape::Box { min: [-3.0, -20.0, -1e-3], max: axis.map(|x| x + 10.5) },
             7 => {
                 let mask = 1 + self.below(31);
-                let parts = (0..5).filter(|i| mask >> i & 1 == 1).map(|i| TEAPOT_PARTS[i]).collect();
-                Shape::Teapot { level: 1 + self.below(256) as u32, parts }
+                let solid = self.coin();
+                // A solid is all of it.
+                let part = |i: &usize| solid || mask >> i & 1 == 1;
+                let parts = (0..5).filter(part).map(|i| TEAPOT_PARTS[i]).collect();
+                Shape::Teapot { level: 1 + self.below(256) as u32, parts, solid }
             }
             8 => Shape::Lathe {
                 profile: vec![[0.0, 0.0], [radius, self.modest()], [1.0, 3.5]],
                 segments,
                 smooth: self.coin(),
                 closed: self.coin(),
+                steps: 1 + self.below(16) as u32,
+                crease_degrees: self.unit() * 180.0,
+            },
+            11 => Shape::Ring { segments },
+            12 => Shape::CoffeeCup { segments },
+            13 => Shape::WineGlass { segments },
+            14 => Shape::Wine { segments },
+            15 => Shape::Band {
+                inner_radius: 0.5 + self.unit(),
+                outer_radius: 2.0,
+                height: self.positive(),
+                fillet: self.unit(),
+                segments,
             },
             9 => Shape::Cylinder {
                 base: center,

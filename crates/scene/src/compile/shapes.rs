@@ -86,10 +86,12 @@ fn solid(desc: &SceneDesc, shape: &ShapeDesc) -> Result<Solid, MeshError> {
             with_normals(mesh, *normals)
         }
         ShapeDesc::Box { min, max } => shapes::box_(v(*min), v(*max)),
-        ShapeDesc::Teapot { level, parts } => teapot(*level, parts),
-        ShapeDesc::Lathe { profile, segments, smooth, closed } => {
+        ShapeDesc::Teapot { level, solid: true, .. } => shapes::teapot_solid(*level),
+        ShapeDesc::Teapot { level, parts, solid: false } => teapot(*level, parts),
+        ShapeDesc::Lathe { profile, segments, smooth, closed, steps, crease_degrees } => {
             let points = profile.iter().copied().map(Vec2::from).collect();
-            let outline = shapes::Profile { closed: *closed, ..shapes::Profile::polyline(points) };
+            let crease = crease_degrees.to_radians();
+            let outline = shapes::Profile { points, closed: *closed, steps: *steps, crease };
             let mesh = shapes::lathe(&outline, *segments)?;
             if *smooth { mesh } else { TriangleMesh { normals: Vec::new(), ..mesh } }
         }
@@ -109,6 +111,13 @@ fn solid(desc: &SceneDesc, shape: &ShapeDesc) -> Result<Solid, MeshError> {
             }
             place(ball, Affine3A::from_translation(v(*center)))
         }
+        ShapeDesc::Band { inner_radius, outer_radius, height, fillet, segments } => {
+            shapes::band(*inner_radius, *outer_radius, *height, *fillet, *segments)
+        }
+        ShapeDesc::Ring { segments } => shapes::ring(*segments),
+        ShapeDesc::CoffeeCup { segments } => shapes::coffee_cup(*segments),
+        ShapeDesc::WineGlass { segments } => shapes::wine_glass(*segments),
+        ShapeDesc::Wine { segments } => shapes::wine(*segments),
     };
     Ok(Solid::Mesh(mesh))
 }
@@ -264,4 +273,53 @@ fn even_scale(t: &Transform) -> Option<f32> {
     let equal = (b.length() - s).abs() < tolerance && (c.length() - s).abs() < tolerance;
     let square = [a.dot(b), b.dot(c), c.dot(a)].iter().all(|d| d.abs() < tolerance * s);
     (equal && square).then_some(s)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn made(shape: ShapeDesc) -> TriangleMesh {
+        match solid(&SceneDesc::default(), &shape).unwrap() {
+            Solid::Mesh(mesh) => mesh,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn vessels_are_what_their_names_say() {
+        let n = 24;
+        assert_eq!(made(ShapeDesc::CoffeeCup { segments: n }), shapes::coffee_cup(n));
+        assert_eq!(made(ShapeDesc::WineGlass { segments: n }), shapes::wine_glass(n));
+        assert_eq!(made(ShapeDesc::Wine { segments: n }), shapes::wine(n));
+        assert_eq!(made(ShapeDesc::Ring { segments: n }), shapes::ring(n));
+        let band =
+            ShapeDesc::Band { inner_radius: 1.0, outer_radius: 1.5, height: 0.7, fillet: 0.1, segments: n };
+        assert_eq!(made(band), shapes::band(1.0, 1.5, 0.7, 0.1, n));
+    }
+
+    #[test]
+    fn a_solid_teapot_is_closed_and_a_plain_one_is_not() {
+        let teapot = |solid| made(ShapeDesc::Teapot { level: 4, parts: desc::TEAPOT_PARTS.to_vec(), solid });
+        assert!(teapot(true).is_closed());
+        assert!(!teapot(false).is_closed());
+    }
+
+    #[test]
+    fn a_lathe_follows_its_steps_and_its_creases() {
+        let lathe = |steps, crease_degrees| {
+            made(ShapeDesc::Lathe {
+                profile: vec![[1.0, 0.0], [2.0, 1.0], [1.0, 2.0]],
+                segments: 8,
+                smooth: true,
+                closed: false,
+                steps,
+                crease_degrees,
+            })
+        };
+        // The profile turns by a right angle: one more ring where it breaks there.
+        let rings = |mesh: &TriangleMesh| mesh.positions.len() / 9;
+        assert_eq!([rings(&lathe(1, 100.0)), rings(&lathe(1, 80.0))], [3, 4]);
+        assert_eq!([rings(&lathe(5, 100.0)), rings(&lathe(5, 80.0))], [11, 12]);
+    }
 }

@@ -106,12 +106,12 @@ pub(crate) fn shape_fault(shape: &Shape) -> Option<(&'static str, String)> {
                 "`max` does not exceed `min` in every coordinate",
             )
         }
-        Shape::Teapot { level, parts } => degenerate(*level == 0, "the level is 0")
-            .or_else(|| degenerate(parts.is_empty(), "no part is left"))
+        Shape::Teapot { level, parts, solid } => degenerate(*level == 0, "the level is 0")
+            .or_else(|| degenerate(parts.is_empty() && !solid, "no part is left"))
             .or_else(|| too_many(64 * *level as u64 * *level as u64)),
-        Shape::Lathe { profile, segments, closed, .. } => lathe_fault(profile, *segments, *closed)
+        Shape::Lathe { profile, segments, closed, steps, .. } => lathe_fault(profile, *segments, *closed)
             .map(|text| ("degenerate", text.to_owned()))
-            .or_else(|| too_many(2 * profile.len() as u64 * *segments as u64)),
+            .or_else(|| too_many(2 * profile.len() as u64 * u64::from(*steps) * *segments as u64)),
         Shape::Cylinder { axis, radius, height, segments, .. } => {
             degenerate(!has_length(*axis), "the axis has no length")
                 .or_else(|| {
@@ -129,6 +129,17 @@ pub(crate) fn shape_fault(shape: &Shape) -> Option<(&'static str, String)> {
         }
         Shape::Icosphere { radius, level, .. } => degenerate(!positive(*radius), "the radius is not > 0")
             .or_else(|| too_many(20u64.saturating_mul(4u64.saturating_pow(*level)))),
+        Shape::Band { inner_radius, outer_radius, height, fillet, segments } => degenerate(
+            !(positive(*inner_radius) && positive(*outer_radius) && positive(*height)),
+            "a radius or the height is not > 0",
+        )
+        .or_else(|| degenerate(outer_radius <= inner_radius, "`outer_radius` does not exceed `inner_radius`"))
+        .or_else(|| degenerate(!(*fillet >= 0.0 && fillet.is_finite()), "the fillet is not ≥ 0"))
+        .or_else(|| degenerate(*segments < 3, "there are less than 3 segments")),
+        Shape::Ring { segments }
+        | Shape::CoffeeCup { segments }
+        | Shape::WineGlass { segments }
+        | Shape::Wine { segments } => degenerate(*segments < 3, "there are less than 3 segments"),
     }
 }
 

@@ -104,8 +104,10 @@ pub enum Shape {
     Teapot {
         /// Each of the 32 patches (with their mirror images) is cut into `level`² quadrilaterals; 1..=256.
         level: u32,
-        /// The parts to make; [`TEAPOT_PARTS`] is all.
+        /// The parts to make; [`TEAPOT_PARTS`] is all. Not used where `solid`.
         parts: Vec<TeapotPart>,
+        /// Closed shells throughout, as glass needs, instead of Newell's open sheets.
+        solid: bool,
     },
     /// A profile turned about the y axis; normals to the right of the way along the profile (up the outside:
     /// outward).
@@ -118,6 +120,10 @@ pub enum Shape {
         smooth: bool,
         /// Whether the last point joins the first.
         closed: bool,
+        /// Parts between two points: 1 for straight lines, more for a curve through the points; 1..=1024.
+        steps: u32,
+        /// Where the profile turns by more than this it has a corner; 0..=180.
+        crease_degrees: f32,
     },
     /// An open tube.
     Cylinder {
@@ -159,5 +165,40 @@ pub enum Shape {
         level: u32,
         /// The sphere's shading normals or the facets' own.
         smooth: bool,
+    },
+    /// A ring with rounded edges about the y axis, from y = 0 up.
+    Band {
+        /// Radius of the hole, > 0.
+        inner_radius: f32,
+        /// Radius outside, > `inner_radius`.
+        outer_radius: f32,
+        /// Its height, > 0.
+        height: f32,
+        /// Radius of the edges, ≥ 0; brought below half of width and of height.
+        fillet: f32,
+        /// Facets around, ≥ 3.
+        segments: u32,
+    },
+    /// A ring for a finger, in metres: a [`Band`](Self::Band) of 18 mm inner and 21 mm outer diameter, 6 mm high.
+    Ring {
+        /// Facets around, ≥ 3.
+        segments: u32,
+    },
+    /// A cup of solid china, in metres: 86.75 mm high, inner radius 40 mm. It stands on the origin, its handle
+    /// toward +x.
+    CoffeeCup {
+        /// Facets around, ≥ 3.
+        segments: u32,
+    },
+    /// A wine glass, in metres: 210 mm high, standing on the origin.
+    WineGlass {
+        /// Facets around, ≥ 3.
+        segments: u32,
+    },
+    /// The wine in a [`WineGlass`](Self::WineGlass), up to y = 0.14; it reaches half-way into the glass's wall, whose
+    /// priority has to be the higher one.
+    Wine {
+        /// Facets around, ≥ 3.
+        segments: u32,
     },
 }

@@ -93,16 +93,30 @@ fn shape(report: &mut Report, r: &Reader<'_>) -> Option<Shape> {
         }
         "teapot" => {
             let (level, parts) = (r.integer(report, "level"), r.words(report, "parts"));
+            let solid = r.bool(report, "solid");
+            if let (Some(a), Some(b), Some(true)) = (r.given("parts"), r.given("solid"), solid) {
+                r.conflict(report, a, b);
+                return None;
+            }
             let parts = match parts? {
                 Some(words) => words.into_iter().filter_map(teapot_part).collect(),
                 None => TEAPOT_PARTS.to_vec(),
             };
-            Some(Shape::Teapot { level: level?, parts })
+            Some(Shape::Teapot { level: level?, parts, solid: solid? })
         }
         "lathe" => {
             let (profile, segments) = (r.pairs(report, "profile"), r.integer(report, "segments"));
             let (smooth, closed) = (r.bool(report, "smooth"), r.bool(report, "closed"));
-            Some(Shape::Lathe { profile: profile?, segments: segments?, smooth: smooth?, closed: closed? })
+            let (steps, crease) = (r.integer(report, "steps"), r.optional_number(report, "crease_angle"));
+            let steps: u32 = steps?;
+            Some(Shape::Lathe {
+                profile: profile?,
+                segments: segments?,
+                smooth: smooth?,
+                closed: closed?,
+                steps,
+                crease_degrees: crease?.unwrap_or(if steps == 1 { 30.0 } else { 75.0 }),
+            })
         }
         "cylinder" => {
             let (base, axis) = (r.point(report, "base"), r.point(report, "axis"));
@@ -132,6 +146,23 @@ fn shape(report: &mut Report, r: &Reader<'_>) -> Option<Shape> {
                 tube_segments: tube_segments?,
             })
         }
+        "band" => {
+            let inner_radius = r.number(report, "inner_radius");
+            let outer_radius = r.number(report, "outer_radius");
+            let (height, fillet) = (r.number(report, "height"), r.number(report, "fillet"));
+            let segments = r.integer(report, "segments");
+            Some(Shape::Band {
+                inner_radius: inner_radius?,
+                outer_radius: outer_radius?,
+                height: height?,
+                fillet: fillet?,
+                segments: segments?,
+            })
+        }
+        "ring" => Some(Shape::Ring { segments: r.integer(report, "segments")? }),
+        "coffee-cup" => Some(Shape::CoffeeCup { segments: r.integer(report, "segments")? }),
+        "wine-glass" => Some(Shape::WineGlass { segments: r.integer(report, "segments")? }),
+        "wine" => Some(Shape::Wine { segments: r.integer(report, "segments")? }),
         _ => {
             let (center, radius) = (r.point(report, "center"), r.number(report, "radius"));
             let (level, smooth) = (r.integer(report, "level"), r.bool(report, "smooth"));

@@ -313,6 +313,11 @@ fn power(f: &mut Fields, watts: f32, color: [f32; 3]) {
 
 fn shape_fields(shape: &Shape) -> Fields {
     let new = |kind| fields(&spec::OBJECTS, Some(kind));
+    let round = |kind, segments: u32| {
+        let mut f = new(kind);
+        f.integer("segments", segments);
+        f
+    };
     match shape {
         Shape::Sphere { center, radius } => {
             let mut f = new("sphere");
@@ -364,20 +369,23 @@ fn shape_fields(shape: &Shape) -> Fields {
             f.triple("max", *max);
             f
         }
-        Shape::Teapot { level, parts } => {
+        Shape::Teapot { level, parts, solid } => {
             let mut f = new("teapot");
             f.integer("level", *level);
-            if parts[..] != TEAPOT_PARTS {
+            if parts[..] != TEAPOT_PARTS && !solid {
                 f.list("parts", parts, |part| quote(part_name(*part)));
             }
+            f.bool("solid", *solid);
             f
         }
-        Shape::Lathe { profile, segments, smooth, closed } => {
+        Shape::Lathe { profile, segments, smooth, closed, steps, crease_degrees } => {
             let mut f = new("lathe");
             f.list("profile", profile, |p| format!("[{}, {}]", number(p[0]), number(p[1])));
             f.integer("segments", *segments);
             f.bool("smooth", *smooth);
             f.bool("closed", *closed);
+            f.integer("steps", *steps);
+            f.number("crease_angle", *crease_degrees);
             f
         }
         Shape::Cylinder { base, axis, radius, height, inward, segments } => {
@@ -408,6 +416,19 @@ fn shape_fields(shape: &Shape) -> Fields {
             f.bool("smooth", *smooth);
             f
         }
+        Shape::Band { inner_radius, outer_radius, height, fillet, segments } => {
+            let mut f = new("band");
+            f.number("inner_radius", *inner_radius);
+            f.number("outer_radius", *outer_radius);
+            f.number("height", *height);
+            f.number("fillet", *fillet);
+            f.integer("segments", *segments);
+            f
+        }
+        Shape::Ring { segments } => round("ring", *segments),
+        Shape::CoffeeCup { segments } => round("coffee-cup", *segments),
+        Shape::WineGlass { segments } => round("wine-glass", *segments),
+        Shape::Wine { segments } => round("wine", *segments),
     }
 }
 
