@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use nephroid::{
-    Control, Event, Job, Output, Phase, PictureError, PictureInfo, Session, SessionError, Timings, Warning,
-    check_outputs, overwritten_inputs, scene_hash,
+    Control, Event, Job, MapReport, Output, Phase, PictureError, PictureInfo, Session, SessionError, Timings,
+    Warning, check_outputs, overwritten_inputs, scene_hash,
 };
 
 use crate::args::RenderArgs;
@@ -47,7 +47,14 @@ pub fn run(args: &RenderArgs) -> Outcome {
         handle.line("interrupted: the picture is written after this pass; once more ends at once");
     })
     .map_err(|e| Failure::runtime(format!("Ctrl-C cannot be caught: {e}")))?;
+    let mut maps_said = false;
     let result = session.run(&mut |event| {
+        // Once, though some integrators make maps for every pass.
+        if let Event::MapsReady { reports, .. } = &event
+            && !std::mem::replace(&mut maps_said, true)
+        {
+            say_maps(&progress, reports);
+        }
         tell(&mut progress, event);
         if interrupt.is_asked() { Control::Stop } else { Control::Continue }
     });
@@ -98,24 +105,25 @@ fn refusal(error: &PictureError) -> String {
 fn tell(progress: &mut Progress, event: Event<'_>) {
     match event {
         Event::PhaseStarted(phase) => progress.doing(phase.name()),
-        Event::MapsReady { reports, .. } => {
-            for report in reports {
-                progress.line(&format!(
-                    "{} map: {} stored photons, {}, typical radius {:.3e}",
-                    report.name,
-                    report.photons,
-                    crate::info::bytes(report.bytes as u64),
-                    report.typical_radius
-                ));
-            }
-            progress.doing(Phase::EyePasses.name());
-        }
+        Event::PassStarted { .. } => progress.doing(Phase::EyePasses.name()),
         Event::PassDone { done, passes, elapsed, remaining, .. } => {
-            progress.doing(Phase::EyePasses.name());
             progress.passes(done, passes, elapsed, remaining);
         }
+        Event::PhaseDone { .. } => progress.doing(Phase::EyePasses.name()),
         Event::Warning(warning) => warn(progress, &warning),
         _ => {}
+    }
+}
+
+fn say_maps(progress: &Progress, reports: &[MapReport]) {
+    for report in reports {
+        progress.line(&format!(
+            "{} map: {} stored photons, {}, typical radius {:.3e}",
+            report.name,
+            report.photons,
+            crate::info::bytes(report.bytes as u64),
+            report.typical_radius
+        ));
     }
 }
 
