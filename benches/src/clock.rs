@@ -1,0 +1,70 @@
+//! Clocks that other programs on the machine disturb as little as may be.
+
+use std::fs;
+use std::time::Instant;
+
+use rustix::time::{ClockId, clock_gettime};
+
+/// Runs `f`; seconds of processor time, user and system, of all threads of this process.
+pub fn processor_s<R>(f: impl FnOnce() -> R) -> (f64, R) {
+    let now = || {
+        let t = clock_gettime(ClockId::ProcessCPUTime);
+        t.tv_sec as f64 + t.tv_nsec as f64 * 1e-9
+    };
+    let start = now();
+    let result = f();
+    (now() - start, result)
+}
+
+/// Runs `f`, which keeps `threads` threads of this process busy; seconds by the wall clock, less the time in which
+/// those threads were ready and other programs had the processors (Linux; elsewhere nothing is taken off).
+///
+/// Of each thread, time = running + waiting + idle; with the waiting gone, all threads together would be done
+/// earlier by its mean. The threads must live before and after `f`.
+pub fn undisturbed_s(threads: usize, f: impl FnOnce()) -> f64 {
+    let (waited, start) = (waited_s(), Instant::now());
+    f();
+    let elapsed = start.elapsed().as_secs_f64();
+    elapsed - (waited_s() - waited) / threads as f64
+}
+
+/// Seconds that the threads of this process have been ready to run and did not, since they started.
+fn waited_s() -> f64 {
+    let Ok(tasks) = fs::read_dir("/proc/self/task") else { return 0.0 };
+    let waited = |text: String| text.split_whitespace().nth(1).and_then(|ns| ns.parse::<f64>().ok());
+    let files = tasks.filter_map(|task| fs::read_to_string(task.ok()?.path().join("schedstat")).ok());
+    files.filter_map(waited).sum::<f64>() * 1e-9
+}
+
+/// The middle one; NaN of none.
+pub fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_median_is_the_middle_one() {
+        assert_eq!(median(&[5.0, 1.0, 3.0]), 3.0);
+        assert!(median(&[]).is_nan());
+    }
+
+    #[test]
+    fn processor_time_passes_with_work_and_not_with_sleep() {
+        let nap = std::time::Duration::from_millis(30);
+        let (asleep, ()) = processor_s(|| std::thread::sleep(nap));
+        let (awake, ()) = processor_s(|| {
+            let start = Instant::now();
+            while start.elapsed() < 3 * nap {
+                std::hint::spin_loop();
+            }
+        });
+        assert!(asleep < 0.03, "{asleep}");
+        assert!(awake > 0.0, "{awake}");
+        assert!(undisturbed_s(1, || std::thread::sleep(nap)) > 0.02);
+    }
+}
