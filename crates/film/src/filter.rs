@@ -198,6 +198,9 @@ impl Filter {
     /// Offset along one axis in pixels, and the weight.
     fn sample_axis(&self, u: f32) -> (f32, f64) {
         let signed = 2.0 * f64::from(u) - 1.0;
+        if self.kind == FilterKind::Box {
+            return ((signed * f64::from(self.radius)) as f32, self.mass);
+        }
         let target = signed.abs().min(1.0);
         let mut i = usize::from(self.guide[(target * GUIDES as f64) as usize]).max(1);
         while i < self.cdf.len() - 1 && self.cdf[i] < target {

@@ -14,7 +14,8 @@ use photons::Scratch;
 use sampling::Sampler;
 use scene::Scene;
 use transport::{
-    LightLayer, Lookup, Vertex, Walk, direct, emission_at, emission_escaped, merge, nearest_irradiance,
+    LightLayer, Lookup, Vertex, Walk, direct, direct_with, emission_at, emission_escaped, merge,
+    nearest_irradiance,
 };
 
 use crate::photon_map::{StoredMap, global_lookup};
@@ -36,6 +37,15 @@ pub(crate) struct Eye<'a> {
     pub settings: &'a PhotonMapSettings,
     pub max_depth: u32,
     pub maps: &'a Maps,
+}
+
+/// Gather rays for each shadow ray at the first D surface.
+const GATHER_PER_SHADOW: u32 = 4;
+
+/// The i-th of n points of Hammersley, shifted at random (Cranley & Patterson 1976).
+fn shifted_hammersley(i: u32, n: u32, shift: [f32; 2]) -> [f32; 2] {
+    let radical_inverse = i.reverse_bits() as f32 * (1.0 / 4_294_967_296.0);
+    [(i as f32 / n as f32 + shift[0]).fract(), (radical_inverse + shift[1]).fract()]
 }
 
 /// Light gathered at a D surface, times the throughput there.
@@ -123,7 +133,7 @@ impl Eye<'_> {
         sample: &mut PixelSample,
     ) {
         let beta = walk.throughput;
-        add(sample, LightLayer::Direct, beta * direct(self.scene, vertex, sampler));
+        add(sample, LightLayer::Direct, beta * self.direct(vertex, sampler));
         let caustic = self.caustic(vertex, scratch, sample);
         add(sample, LightLayer::Caustic, beta * caustic * self.settings.caustic_gain);
         let mut gathered = Gathered::default();
@@ -135,6 +145,17 @@ impl Eye<'_> {
         }
         add(sample, LightLayer::Direct, gathered.direct);
         add(sample, LightLayer::Indirect, gathered.indirect);
+    }
+
+    /// Light straight from the lights by light sampling: a shadow ray for every few gather rays.
+    fn direct(&self, vertex: &Vertex, sampler: &mut Sampler) -> Lanes {
+        let n = (self.settings.final_gather / GATHER_PER_SHADOW).max(1);
+        let shift = sampler.next_2d();
+        let mut sum = Lanes::ZERO;
+        for i in 0..n {
+            sum += direct_with(self.scene, vertex, sampler.next_1d(), shifted_hammersley(i, n, shift));
+        }
+        sum / n as f32
     }
 
     fn caustic(&self, vertex: &Vertex, scratch: &mut Scratch, sample: &mut PixelSample) -> Lanes {
@@ -167,9 +188,7 @@ impl Eye<'_> {
     ) {
         let shift = sampler.next_2d();
         for i in 0..n {
-            // Hammersley's points, shifted at random (Cranley & Patterson 1976).
-            let radical_inverse = i.reverse_bits() as f32 * (1.0 / 4_294_967_296.0);
-            let u = [(i as f32 / n as f32 + shift[0]).fract(), (radical_inverse + shift[1]).fract()];
+            let u = shifted_hammersley(i, n, shift);
             let u_lobe = sampler.next_1d();
             let mut ray = *walk;
             ray.throughput = ray.throughput / n as f32;

@@ -4,7 +4,7 @@ use bsdf::TransportMode;
 use color::Lanes;
 use film::{FilmError, PassFilm, PixelSample, Tiles};
 use math::Vec2;
-use sampling::{Domain, Sampler};
+use sampling::{Domain, Sampler, Streams};
 use scene::Scene;
 use transport::{LightLayer, Vertex, Walk};
 
@@ -28,13 +28,14 @@ pub(crate) fn render_pixels<'s>(
 ) -> Result<PassFilm, FilmError> {
     let [width, height] = scene.resolution().map(|n| n as usize);
     let tiles = Tiles::new(width, height, TILE);
+    let streams = Streams::new(settings.seed, pass, Domain::Camera);
     let samples = par::map(tiles.len(), |i| {
         let (xs, ys) = tiles.pixels(i);
         let mut out = Vec::with_capacity(xs.len() * ys.len());
         for y in ys {
             for x in xs.clone() {
                 let mut sample = PixelSample::default();
-                let path = start(scene, settings, pass, [x, y], width, &mut sample);
+                let path = start(scene, settings, streams.path((y * width + x) as u64), [x, y], &mut sample);
                 f(path, &mut sample);
                 out.push(sample);
             }
@@ -47,12 +48,10 @@ pub(crate) fn render_pixels<'s>(
 fn start<'s>(
     scene: &'s Scene,
     settings: &Settings,
-    pass: u64,
+    mut sampler: Sampler,
     [x, y]: [usize; 2],
-    width: usize,
     sample: &mut PixelSample,
 ) -> CameraPath<'s> {
-    let mut sampler = Sampler::new(settings.seed, pass, Domain::Camera, (y * width + x) as u64);
     let filter = settings.filter.sample(sampler.next_2d());
     let film_position = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) + filter.offset;
     let camera = scene.camera().sample_we(film_position, sampler.next_2d());

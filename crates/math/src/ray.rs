@@ -33,6 +33,7 @@ pub const fn gamma(n: u32) -> f32 {
 /// Where a ray that leaves along `w` starts: `p` moved along the normal `n` (either orientation) to the side of
 /// `w`, past the box of half-size `p_error` that is known to hold the true point, and rounded outward
 /// (Pharr, Jakob & Humphreys 2023, §6.8.6).
+#[inline]
 pub fn offset_ray_origin(p: Vec3, p_error: Vec3, n: Vec3, w: Vec3) -> Vec3 {
     let d = n.abs().dot(p_error);
     let offset = if w.dot(n) < 0.0 { -n * d } else { n * d };

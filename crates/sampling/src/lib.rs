@@ -10,4 +10,4 @@ pub mod warp;
 
 pub use discrete::Discrete;
 pub use philox::philox4x32_10;
-pub use sampler::{Domain, Sampler};
+pub use sampler::{Domain, Sampler, Streams};

@@ -24,16 +24,36 @@ pub struct Sampler {
     increment: u64,
 }
 
-impl Sampler {
-    /// The stream of a path. Equal keys give equal streams.
-    pub fn new(seed: u64, pass: u64, domain: Domain, path: u64) -> Self {
+/// The streams of all paths of (seed, pass, domain): the half of the key that they share, worked out once.
+#[derive(Clone, Copy, Debug)]
+pub struct Streams([u32; 2]);
+
+impl Streams {
+    /// The streams of a pass.
+    pub fn new(seed: u64, pass: u64, domain: Domain) -> Self {
         // Two bijections, so that all 64 bits of each part of the key count.
         let [s0, s1, _, _] = philox4x32_10(
             [pass as u32, (pass >> 32) as u32, domain as u32, 0],
             [seed as u32, (seed >> 32) as u32],
         );
-        let [a, b, c, d] = philox4x32_10([path as u32, (path >> 32) as u32, 0, 0], [s0, s1]);
-        Self { state: u64::from(a) << 32 | u64::from(b), increment: (u64::from(c) << 32 | u64::from(d)) | 1 }
+        Self([s0, s1])
+    }
+
+    /// The stream of a path.
+    #[inline]
+    pub fn path(&self, path: u64) -> Sampler {
+        let [a, b, c, d] = philox4x32_10([path as u32, (path >> 32) as u32, 0, 0], self.0);
+        Sampler {
+            state: u64::from(a) << 32 | u64::from(b),
+            increment: (u64::from(c) << 32 | u64::from(d)) | 1,
+        }
+    }
+}
+
+impl Sampler {
+    /// The stream of a path. Equal keys give equal streams.
+    pub fn new(seed: u64, pass: u64, domain: Domain, path: u64) -> Self {
+        Streams::new(seed, pass, domain).path(path)
     }
 
     /// Uniform 32 bits.

@@ -155,6 +155,11 @@ impl Material {
         }
     }
 
+    /// Whether texture coordinates are of no use to it.
+    pub fn needs_no_uv(&self) -> bool {
+        self.is_uniform() && self.normal_map.is_none()
+    }
+
     /// Whether nothing varies over the surface.
     fn is_uniform(&self) -> bool {
         let c = |s: ColorSource| matches!(s, ColorSource::Constant(_));
@@ -199,6 +204,7 @@ impl Material {
         }
     }
 
+    #[inline(never)]
     fn bsdf_kind(&self, hit: Option<&SurfaceInteraction>, eta: f32, lookup: &Lookup<'_>) -> BsdfKind {
         let color = |s: ColorSource| match (s, hit) {
             (ColorSource::Constant(c), _) => c,
@@ -244,6 +250,7 @@ impl Material {
         Bsdf::new(kind, facing(frame, hit, wo), hit.ng)
     }
 
+    #[inline(never)]
     fn bent_frame(
         &self,
         hit: &SurfaceInteraction,

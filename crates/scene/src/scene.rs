@@ -66,6 +66,7 @@ impl Scene {
         self.intersect_instance(ray, &hit)
     }
 
+    #[inline(never)]
     fn intersect_instance(&self, ray: &Ray, hit: &accel::Hit) -> Option<SurfaceInteraction> {
         let Outer::Instance { group, render_from_object, material } = &self.outer[hit.instance as usize]
         else {

@@ -125,6 +125,7 @@ fn sliver_normal(p0: Vec3, p1: Vec3, p2: Vec3) -> Vec3 {
     if n.length_squared() > 0.0 { n.normalize().as_vec3() } else { Vec3::Z }
 }
 
+#[inline(never)]
 fn sphere(center: Vec3, radius: f32, flipped: bool, ray: &Ray, hit: &accel::Hit) -> SurfaceInteraction {
     let mut s = blank(hit);
     let n = (ray.at(hit.t) - center).normalize();
@@ -142,6 +143,7 @@ fn sphere(center: Vec3, radius: f32, flipped: bool, ray: &Ray, hit: &accel::Hit)
     s
 }
 
+#[inline(never)]
 fn disk(center: Vec3, normal: Vec3, radius: f32, ray: &Ray, hit: &accel::Hit) -> SurfaceInteraction {
     let mut s = blank(hit);
     let p = ray.at(hit.t);

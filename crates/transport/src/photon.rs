@@ -3,7 +3,7 @@ use std::ops::Range;
 use bsdf::Lobes;
 use color::Lanes;
 use photons::{Photon, PhotonFlags};
-use sampling::{Domain, Sampler};
+use sampling::{Domain, Sampler, Streams};
 use scene::Scene;
 
 use crate::{EmittedPhoton, Vertex, Walk, emit, emit_toward_targets};
@@ -79,10 +79,11 @@ impl PhotonBalance {
 pub fn trace_photons(scene: &Scene, job: &PhotonJob, range: Range<u64>) -> PhotonBatch {
     let mut batch = PhotonBatch::default();
     let share = 1.0 / job.count as f32;
+    let aimed = job.paths == PhotonPaths::Caustic;
+    let domain = if aimed { Domain::CausticPhoton } else { Domain::GlobalPhoton };
+    let streams = Streams::new(job.seed, job.map_index, domain);
     for path in range {
-        let aimed = job.paths == PhotonPaths::Caustic;
-        let domain = if aimed { Domain::CausticPhoton } else { Domain::GlobalPhoton };
-        let mut sampler = Sampler::new(job.seed, job.map_index, domain, path);
+        let mut sampler = streams.path(path);
         let emitted =
             if aimed { emit_toward_targets(scene, &mut sampler) } else { emit(scene, &mut sampler) };
         let Some(EmittedPhoton { mut walk, .. }) = emitted else { continue };

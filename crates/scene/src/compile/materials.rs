@@ -74,6 +74,10 @@ impl<'d> Library<'d> {
         self.materials[id.0 as usize].specular_weight(&self.textures)
     }
 
+    pub fn needs_no_uv(&self, id: MaterialId) -> bool {
+        self.materials[id.0 as usize].needs_no_uv()
+    }
+
     pub fn finish(self) -> (Vec<Material>, Vec<Texture>) {
         (self.materials, self.textures)
     }

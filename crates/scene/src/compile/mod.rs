@@ -165,7 +165,11 @@ impl<'d> Compiler<'d> {
     /// Adds a solid to the outer geometry (`outer`) or leaves that to the caller, and keeps what hits need.
     fn object(&mut self, solid: Solid, material: MaterialId, light: Option<LightId>, outer: bool) -> Object {
         let shape = match solid {
-            Solid::Mesh(mesh) => {
+            Solid::Mesh(mut mesh) => {
+                // In a group an instance may bring a material that wants them.
+                if outer && self.library.needs_no_uv(material) {
+                    mesh.uvs = Vec::new();
+                }
                 self.triangles += mesh.indices.len() as u64;
                 self.mesh_bytes += (size_of_val(&mesh.positions[..])
                     + size_of_val(&mesh.normals[..])

@@ -23,9 +23,9 @@ impl Origin {
     }
 }
 
-/// Error of a point that was computed as centre + offset with a few roundings.
+/// Error of a point that was computed as centre + offset with a few roundings: a cube, as for the points of shapes.
 pub(super) fn error_about(center: Vec3, reach: Vec3) -> Vec3 {
-    gamma(6) * (center.abs() + reach.abs())
+    Vec3::splat(gamma(8) * (center.abs() + reach.abs()).max_element())
 }
 
 /// How light leaves one point.

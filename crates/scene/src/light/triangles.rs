@@ -9,6 +9,8 @@ use super::{AreaEmission, LiSample, Sides};
 #[derive(Clone, Debug)]
 pub struct TriangleLight {
     triangles: Vec<[Vec3; 3]>,
+    /// Unit normal of each triangle's front, and its longest edge.
+    normals: Vec<(Vec3, f32)>,
     picks: Discrete,
     area: f32,
     bounds: Bounds3,
@@ -24,8 +26,17 @@ impl TriangleLight {
         let picks = Discrete::new(triangles.iter().map(area_of));
         let area = picks.total() as f32;
         let bounds = Bounds3::of_points(triangles.iter().flatten().copied());
+        let normals =
+            triangles.iter().map(|t| (cross(t).normalize_or_zero().as_vec3(), longest_edge(t))).collect();
         let ok = finite && area.is_normal() && super::is_emission(radiance);
-        ok.then_some(Self { triangles, picks, area, bounds, surface: AreaEmission { radiance, sides } })
+        ok.then_some(Self {
+            triangles,
+            normals,
+            picks,
+            area,
+            bounds,
+            surface: AreaEmission { radiance, sides },
+        })
     }
 
     /// The parallelogram with a corner and two edges; its front is along `edge_u × edge_v`.
@@ -55,19 +66,25 @@ impl TriangleLight {
         self.triangles.iter().filter_map(|t| Some((t[0], cross(t).try_normalize()?.as_vec3())))
     }
 
+    #[inline]
     pub(super) fn origin(&self, u_pick: f32, u: [f32; 2]) -> Origin {
         let (index, _, _) = self.picks.sample(u_pick);
         let t = &self.triangles[index];
         let [b0, b1] = warp::triangle(u);
         let parts = [t[0] * b0, t[1] * b1, t[2] * (1.0 - b0 - b1)];
-        let p_error = gamma(6) * (parts[0].abs() + parts[1].abs() + parts[2].abs());
-        let ng = cross(t).normalize().as_vec3();
+        let (ng, reach) = self.normals[index];
+        let rounding = (parts[0].abs() + parts[1].abs() + parts[2].abs()).max_element();
+        let p_error = Vec3::splat(rounding * gamma(6) + reach * gamma(3));
         Origin { p: parts[0] + parts[1] + parts[2], p_error, ng, pdf_a: 1.0 / self.area, prim: index as u32 }
     }
 
     pub(super) fn sample_li(&self, p: Vec3, u_pick: f32, u: [f32; 2]) -> Option<LiSample> {
         self.surface.li_from_area(self.area, p, &self.origin(u_pick, u))
     }
+}
+
+fn longest_edge(t: &[Vec3; 3]) -> f32 {
+    t[0].distance(t[1]).max(t[1].distance(t[2])).max(t[2].distance(t[0]))
 }
 
 /// Twice the area, along the front normal.
