@@ -2,6 +2,7 @@
 //! contribution, a pure function; no clocks, locks, atomics or printing.
 
 mod eye;
+mod irradiance;
 mod path;
 mod photon_map;
 mod pixels;

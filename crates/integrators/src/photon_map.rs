@@ -3,16 +3,15 @@
 use film::{FilmError, PassFilm};
 use photons::{Kernel, Photon, PhotonMap, Query, Scratch};
 use scene::Scene;
-use transport::{Lookup, PhotonBalance, PhotonJob, PhotonPaths, irradiance, trace_photons};
+use transport::{Lookup, PhotonBalance, PhotonJob, PhotonPaths, trace_photons};
 
 use crate::eye::Eye;
+use crate::irradiance::irradiance_samples;
 use crate::pixels::render_pixels;
 use crate::{Integrator, PhotonMapSettings, Settings};
 
 /// Photon paths of one task; fixed, so that sums have one shape on any number of threads.
 const CHUNK: usize = 4096;
-/// Every so many photons of the global map, irradiance is worked out in advance (Christensen 1999).
-const IRRADIANCE_STRIDE: usize = 4;
 /// Photons at which the typical lookup radius of a map is measured.
 const PROBES: usize = 256;
 
@@ -157,7 +156,7 @@ impl Integrator for PhotonMapper {
         let irradiance = global
             .as_ref()
             .filter(|_| s.final_gather > 0)
-            .map(|g| irradiance_samples(g, &global_lookup(s, g)));
+            .map(|g| irradiance_samples(scene, g, &global_lookup(s, g), self.settings.seed));
         Maps { global, caustic, irradiance }
     }
 
@@ -208,29 +207,4 @@ fn typical_radius(map: &PhotonMap, knn: usize, reach: f32) -> f32 {
         .collect();
     radii.sort_by(f32::total_cmp);
     radii.get(radii.len() / 2).copied().unwrap_or(reach)
-}
-
-/// Irradiance at every few photons of the global map (Christensen 1999): a gather ray then needs one neighbour
-/// instead of k.
-fn irradiance_samples(stored: &StoredMap, lookup: &Lookup) -> PhotonMap {
-    let map = &stored.map;
-    let count = map.len().div_ceil(IRRADIANCE_STRIDE);
-    let chunks = par::map_chunks(count, 1024, |range| {
-        let mut scratch = Scratch::new();
-        range
-            .map(|i| {
-                let mut sample = map.photon((i * IRRADIANCE_STRIDE) as u32);
-                let query = Query {
-                    position: sample.position,
-                    normal: sample.normal,
-                    radius: lookup.max_radius,
-                    kernel: lookup.kernel,
-                };
-                sample.power = irradiance(map, &query, lookup.knn, &mut scratch).0;
-                sample.direction = sample.normal;
-                sample
-            })
-            .collect::<Vec<_>>()
-    });
-    PhotonMap::build(chunks.concat())
 }

@@ -4,7 +4,7 @@ use bsdf::TransportMode;
 use color::Lanes;
 use film::{FilmError, PassFilm, PixelSample, Tiles};
 use math::Vec2;
-use sampling::{Domain, Sampler, Streams};
+use sampling::{Domain, Sampler, Streams, shifted_r2};
 use scene::Scene;
 use transport::{LightLayer, Vertex, Walk};
 
@@ -35,7 +35,7 @@ pub(crate) fn render_pixels<'s>(
         for y in ys {
             for x in xs.clone() {
                 let mut sample = PixelSample::default();
-                let path = start(scene, settings, streams.path((y * width + x) as u64), [x, y], &mut sample);
+                let path = start(scene, settings, &streams, pass, [x, y], &mut sample);
                 f(path, &mut sample);
                 out.push(sample);
             }
@@ -48,11 +48,15 @@ pub(crate) fn render_pixels<'s>(
 fn start<'s>(
     scene: &'s Scene,
     settings: &Settings,
-    mut sampler: Sampler,
+    streams: &Streams,
+    pass: u64,
     [x, y]: [usize; 2],
     sample: &mut PixelSample,
 ) -> CameraPath<'s> {
-    let filter = settings.filter.sample(sampler.next_2d());
+    let pixel = y as u64 * u64::from(scene.resolution()[0]) + x as u64;
+    let mut sampler = streams.path(pixel);
+    // Evenly over the passes, so that edges need few of them.
+    let filter = settings.filter.sample(shifted_r2(settings.seed.rotate_left(32) ^ pixel, pass));
     let film_position = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) + filter.offset;
     let camera = scene.camera().sample_we(film_position, sampler.next_2d());
     sample.weight = filter.weight * camera.weight;
