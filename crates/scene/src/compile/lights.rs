@@ -54,7 +54,9 @@ pub(super) fn light(kind: &LightKind) -> Option<(Light, Option<Vec3>)> {
         }
         LightKind::Spot { position, direction, cone_angle, falloff_angle, amount } => {
             let (p, axis) = (Vec3::from(position), Vec3::from(direction));
-            let spot = |intensity| SpotLight::new(p, axis, intensity, cone_angle - falloff_angle, cone_angle);
+            let radians = |degrees: f32| degrees.to_radians().min(PI);
+            let (inner, outer) = (radians(cone_angle - falloff_angle), radians(cone_angle));
+            let spot = |intensity| SpotLight::new(p, axis, intensity, inner, outer);
             let light = match amount {
                 PointAmount::Intensity(rgb) => spot(lanes(rgb))?,
                 PointAmount::Power { watts, color } => {
