@@ -2,6 +2,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr)] // it reports
 
 mod bench;
+mod gallery;
 mod reference;
 
 use std::path::{Path, PathBuf};
@@ -15,6 +16,7 @@ type Chore = (&'static str, &'static str, &'static str, fn(&[String]) -> Outcome
 
 const CHORES: &[Chore] = &[
     ("bench", "[--quick] [--only PREFIX] [--json FILE]", "measures against peers", bench::run),
+    ("gallery", "[NAME...]", "renders docs/gallery/", gallery::run),
     ("reference", "[--check]", "writes docs/reference.md", reference::run),
 ];
 
