@@ -16,16 +16,25 @@ pub fn processor_s<R>(f: impl FnOnce() -> R) -> (f64, R) {
     (now() - start, result)
 }
 
-/// Runs `f`, which keeps `threads` threads of this process busy; seconds by the wall clock, less the time in which
-/// those threads were ready and other programs had the processors (Linux; elsewhere nothing is taken off).
+/// A time by the wall clock.
+#[derive(Clone, Copy, Debug)]
+pub struct Spell {
+    /// Seconds, less those in which threads were ready and other programs had the processors.
+    pub undisturbed_s: f64,
+    /// Seconds as they passed.
+    pub elapsed_s: f64,
+}
+
+/// Runs `f`, which keeps `threads` threads of this process busy. What others took is known on Linux; elsewhere
+/// nothing is taken off.
 ///
 /// Of each thread, time = running + waiting + idle; with the waiting gone, all threads together would be done
 /// earlier by its mean. The threads must live before and after `f`.
-pub fn undisturbed_s(threads: usize, f: impl FnOnce()) -> f64 {
+pub fn spell(threads: usize, f: impl FnOnce()) -> Spell {
     let (waited, start) = (waited_s(), Instant::now());
     f();
-    let elapsed = start.elapsed().as_secs_f64();
-    elapsed - (waited_s() - waited) / threads as f64
+    let elapsed_s = start.elapsed().as_secs_f64();
+    Spell { undisturbed_s: elapsed_s - (waited_s() - waited) / threads as f64, elapsed_s }
 }
 
 /// Seconds that the threads of this process have been ready to run and did not, since they started.
@@ -65,6 +74,7 @@ mod tests {
         });
         assert!(asleep < 0.03, "{asleep}");
         assert!(awake > 0.0, "{awake}");
-        assert!(undisturbed_s(1, || std::thread::sleep(nap)) > 0.02);
+        let Spell { undisturbed_s, elapsed_s } = spell(1, || std::thread::sleep(nap));
+        assert!(elapsed_s >= 0.03 && undisturbed_s <= elapsed_s);
     }
 }

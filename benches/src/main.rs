@@ -82,7 +82,9 @@ fn run() -> Result<(), String> {
     }
     rows.retain(|row| row.name.starts_with(only));
     let expected: Vec<&str> = BARS.iter().map(|(name, _)| *name).filter(|n| n.starts_with(only)).collect();
-    println!("\n{}", table(&rows, &expected));
+    if !(rows.is_empty() && expected.is_empty()) {
+        println!("\n{}", table(&rows, &expected));
+    }
     if let Some(path) = &arguments.json {
         std::fs::write(path, json(&rows)).map_err(|e| format!("{}: {e}", path.display()))?;
     }

@@ -6,6 +6,8 @@ use std::sync::Arc;
 
 use nephroid::{Control, Event, Job, Scene, SceneDesc, Session, compile, load};
 
+use crate::clock::{Spell, median, spell};
+
 /// A scene ready to be rendered.
 pub(crate) struct Ready {
     pub desc: SceneDesc,
@@ -34,19 +36,20 @@ impl Ready {
         Session::new(Job { passes, ..job }, threads).map_err(|e| e.to_string())
     }
 
-    /// Wall-clock ratio of one thread to two, without what other programs took: medians of `rounds` in turn.
-    pub(crate) fn two_over_one(&self, passes: u64, rounds: usize) -> Result<(f64, f64, f64), String> {
-        let mut times = [Vec::new(), Vec::new()];
+    /// Medians of `rounds` in turn, on one thread and on two.
+    pub(crate) fn one_and_two(&self, passes: u64, rounds: usize) -> Result<[Spell; 2], String> {
+        let mut times = [(Vec::new(), Vec::new()), (Vec::new(), Vec::new())];
         for _ in 0..rounds {
-            for (threads, times) in (1..).zip(&mut times) {
+            for (threads, (undisturbed, elapsed)) in (1..).zip(&mut times) {
                 let mut session = self.session(0..passes, threads)?;
                 let mut outcome = Ok(());
-                times.push(crate::clock::undisturbed_s(threads, || outcome = run(&mut session)));
+                let spell = spell(threads, || outcome = run(&mut session));
                 outcome?;
+                undisturbed.push(spell.undisturbed_s);
+                elapsed.push(spell.elapsed_s);
             }
         }
-        let [one, two] = times.map(|t| crate::clock::median(&t));
-        Ok((one / two, one, two))
+        Ok(times.map(|(u, e)| Spell { undisturbed_s: median(&u), elapsed_s: median(&e) }))
     }
 }
 
