@@ -57,8 +57,8 @@ impl Discrete {
     /// Outcomes of probability 0 are never drawn. An empty distribution gives (0, 0, `u`).
     #[inline]
     pub fn sample(&self, u: f32) -> (usize, f32, f32) {
-        if self.cdf.is_empty() {
-            return (0, 0.0, u);
+        if self.cdf.len() <= 1 {
+            return (0, self.cdf.len() as f32, u);
         }
         let v = f64::from(u);
         let index = self.cdf.partition_point(|&c| c <= v).min(self.cdf.len() - 1);

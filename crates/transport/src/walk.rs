@@ -50,8 +50,6 @@ pub struct Vertex {
 pub struct Scattered {
     /// The point from which the ray went on.
     pub p: Vec3,
-    /// Its geometric normal.
-    pub n: Vec3,
     /// Density of the direction per steradian; of no meaning after a delta lobe.
     pub pdf_w: f32,
     /// Kind of the lobe that was drawn.
@@ -157,7 +155,6 @@ impl<'s> Walk<'s> {
         // A density is only of use where light sampling competes.
         let scattered = Scattered {
             p: vertex.hit.p,
-            n: vertex.hit.ng,
             pdf_w: sample.pdf_w,
             lobes: sample.lobes,
             lit: !sample.lobes.contains(Lobes::SPECULAR),
@@ -169,8 +166,7 @@ impl<'s> Walk<'s> {
     /// Continues along one delta lobe, without choosing: its weight is all of f·|cos|.
     pub fn follow_delta(&mut self, vertex: &Vertex, lobe: &DeltaLobe) {
         self.follow(vertex, lobe.wi, lobe.weight, lobe.lobes, lobe.eta);
-        self.last =
-            Some(Scattered { p: vertex.hit.p, n: vertex.hit.ng, pdf_w: 0.0, lobes: lobe.lobes, lit: false });
+        self.last = Some(Scattered { p: vertex.hit.p, pdf_w: 0.0, lobes: lobe.lobes, lit: false });
     }
 
     #[inline]
