@@ -1,6 +1,6 @@
 //! `cargo xtask gallery`: the small pictures of docs/gallery/, rendered from scenes/ by the release build.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use crate::{Outcome, root};
@@ -16,25 +16,25 @@ struct Picture {
 }
 
 const fn square(scene: &'static str, passes: u32, final_gather: u32) -> Picture {
-    Picture { scene, size: [384, 384], passes, final_gather }
+    Picture { scene, size: [320, 320], passes, final_gather }
 }
 
 const PICTURES: &[Picture] = &[
-    square("report/teapot-glass", 32, 8),
-    square("report/water-sphere", 24, 8),
-    square("report/steel-and-glass", 32, 8),
+    square("report/teapot-glass", 24, 8),
+    square("report/water-sphere", 20, 8),
+    Picture { scene: "report/steel-and-glass", size: [384, 384], passes: 24, final_gather: 8 },
     square("report/photons-low", 16, 0),
     square("report/photons-high", 16, 0),
-    square("report/caustic-gain-1", 24, 8),
-    square("report/caustic-gain-2", 24, 8),
-    square("report/caustic-gain-3", 24, 8),
-    square("report/lighting-a", 24, 8),
-    square("report/lighting-b", 24, 8),
-    square("report/lighting-c", 24, 8),
-    square("report/teapot-in-box", 32, 8),
-    Picture { scene: "coffee-cup", size: [448, 336], passes: 64, final_gather: 4 },
-    Picture { scene: "metal-ring", size: [448, 336], passes: 64, final_gather: 4 },
-    Picture { scene: "wine-glass", size: [336, 448], passes: 32, final_gather: 8 },
+    square("report/caustic-gain-1", 20, 8),
+    square("report/caustic-gain-2", 20, 8),
+    square("report/caustic-gain-3", 20, 8),
+    square("report/lighting-a", 20, 8),
+    square("report/lighting-b", 20, 8),
+    square("report/lighting-c", 20, 8),
+    Picture { scene: "report/teapot-in-box", size: [384, 384], passes: 24, final_gather: 8 },
+    Picture { scene: "coffee-cup", size: [400, 300], passes: 48, final_gather: 4 },
+    Picture { scene: "metal-ring", size: [400, 300], passes: 48, final_gather: 4 },
+    Picture { scene: "wine-glass", size: [300, 400], passes: 24, final_gather: 8 },
     Picture { scene: "furnace", size: [128, 128], passes: 16, final_gather: 8 },
 ];
 
@@ -55,30 +55,45 @@ pub fn run(arguments: &[String]) -> Outcome {
         let names: Vec<_> = PICTURES.iter().map(Picture::name).collect();
         return Err(format!("no picture is called `{name}`; there are {}", names.join(", ")));
     }
+    let nephroid = build()?;
     let folder = root().join("docs/gallery");
     std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     for picture in PICTURES {
         if arguments.is_empty() || arguments.iter().any(|name| name == picture.name()) {
-            render(picture, &folder)?;
+            render(&nephroid, picture, &folder)?;
         }
     }
     weigh(&folder)
 }
 
-fn render(picture: &Picture, folder: &Path) -> Outcome {
+/// The release build of the command line, which lies beside this program.
+fn build() -> Result<PathBuf, String> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let status = Command::new(cargo)
+        .args(["build", "--quiet", "--release", "--package", "nephroid-cli"])
+        .current_dir(root())
+        .status()
+        .map_err(|e| format!("cargo does not start: {e}"))?;
+    if !status.success() {
+        return Err("the command line does not build".into());
+    }
+    let here = std::env::current_exe().map_err(|e| format!("this program cannot find itself: {e}"))?;
+    Ok(here.with_file_name(format!("nephroid{}", std::env::consts::EXE_SUFFIX)))
+}
+
+fn render(nephroid: &Path, picture: &Picture, folder: &Path) -> Outcome {
     let [width, height] = picture.size;
     let output = folder.join(format!("{}.png", picture.name()));
     println!("{}", picture.name());
-    let status = Command::new(cargo)
-        .args(["run", "--quiet", "--release", "--package", "nephroid-cli", "--", "render"])
+    let status = Command::new(nephroid)
+        .arg("render")
         .arg(root().join("scenes").join(format!("{}.toml", picture.scene)))
         .arg("--output")
         .arg(output)
         .args(["--size", &format!("{width}x{height}"), "--passes", &picture.passes.to_string()])
         .args(["--set", &format!("photon_map.final_gather={}", picture.final_gather), "--quiet"])
         .status()
-        .map_err(|e| format!("cargo does not start: {e}"))?;
+        .map_err(|e| format!("{}: {e}", nephroid.display()))?;
     if status.success() { Ok(()) } else { Err(format!("{} was not rendered", picture.scene)) }
 }
 

@@ -195,8 +195,8 @@ pub enum Shape {
         /// Facets around, ≥ 3.
         segments: u32,
     },
-    /// The wine in a [`WineGlass`](Self::WineGlass), up to y = 0.14; it reaches half-way into the glass's wall, whose
-    /// priority has to be the higher one.
+    /// The wine in a [`WineGlass`](Self::WineGlass), up to y = 0.14; it reaches half-way into the glass's wall. The
+    /// dielectric of higher priority fills the overlap.
     Wine {
         /// Facets around, ≥ 3.
         segments: u32,

@@ -264,9 +264,9 @@ const SHAPES: &[Variant] = &[
     },
     Variant {
         name: "wine",
-        doc: "The wine in the wine-glass, filled to y = 0.14. It reaches into the glass, so that no air lies between: give the glass the higher priority.",
+        doc: "The wine in the wine-glass, filled to y = 0.14. It reaches half-way into the glass, so that no air lies between; the higher priority fills the overlap: the wine's, if its color is to tint what leaves through the glass.",
         keys: &[&[facets(256)]],
-        example: "[[objects]]\nshape = \"wine\"\nmaterial = { kind = \"dielectric\", ior = 1.34, color = [1, 0.5, 0.5] }\n",
+        example: "[[objects]]\nshape = \"wine\"\nmaterial = { kind = \"dielectric\", ior = 1.34, color = [0.7, 0.1, 0.1], priority = 2 }\n",
     },
 ];
 
