@@ -1,5 +1,7 @@
 //! Clocks that other programs on the machine disturb as little as may be.
 
+use std::collections::HashMap;
+use std::ffi::OsString;
 use std::fs;
 use std::time::Instant;
 
@@ -34,15 +36,21 @@ pub fn spell(threads: usize, f: impl FnOnce()) -> Spell {
     let (waited, start) = (waited_s(), Instant::now());
     f();
     let elapsed_s = start.elapsed().as_secs_f64();
-    Spell { undisturbed_s: elapsed_s - (waited_s() - waited) / threads as f64, elapsed_s }
+    // Threads of an earlier pool may end meanwhile: only those that are there before and after count.
+    let since = |(thread, now): (OsString, f64)| waited.get(&thread).map(|before| now - before);
+    let waited: f64 = waited_s().into_iter().filter_map(since).sum();
+    Spell { undisturbed_s: elapsed_s - waited / threads as f64, elapsed_s }
 }
 
-/// Seconds that the threads of this process have been ready to run and did not, since they started.
-fn waited_s() -> f64 {
-    let Ok(tasks) = fs::read_dir("/proc/self/task") else { return 0.0 };
-    let waited = |text: String| text.split_whitespace().nth(1).and_then(|ns| ns.parse::<f64>().ok());
-    let files = tasks.filter_map(|task| fs::read_to_string(task.ok()?.path().join("schedstat")).ok());
-    files.filter_map(waited).sum::<f64>() * 1e-9
+/// Of each thread of this process, the seconds that it has been ready to run and did not, since it started.
+fn waited_s() -> HashMap<OsString, f64> {
+    let Ok(tasks) = fs::read_dir("/proc/self/task") else { return HashMap::new() };
+    let waited = |task: fs::DirEntry| {
+        let text = fs::read_to_string(task.path().join("schedstat")).ok()?;
+        let ns: f64 = text.split_whitespace().nth(1)?.parse().ok()?;
+        Some((task.file_name(), ns * 1e-9))
+    };
+    tasks.filter_map(|task| waited(task.ok()?)).collect()
 }
 
 /// The middle one; NaN of none.
