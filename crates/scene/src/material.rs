@@ -259,7 +259,8 @@ impl Material {
         lookup: &Lookup<'_>,
     ) -> Frame {
         let base = Frame::from_zx(hit.ns, hit.dpdu);
-        let local = lookup.textures[texture as usize].evaluate_normal(hit.uv);
+        let local =
+            lookup.textures[texture as usize].evaluate_normal(hit.uv, lookup.footprint * hit.uv_per_length);
         let bent = Vec3::new(local.x * strength, local.y * strength, local.z.max(1e-3));
         let mut ns = base.to_world(bent).normalize();
         // A normal that turned past the geometric horizon is brought back to it.

@@ -39,7 +39,7 @@ impl UvMap {
 pub enum Texture {
     /// The same everywhere.
     Constant([f32; 3]),
-    /// Squares of two colours.
+    /// Squares of two textures.
     Checker(Checker),
     /// A picture.
     Image(ImageTexture),
@@ -55,10 +55,10 @@ impl Texture {
         }
     }
 
-    /// The tangent-space normal 2·rgb − 1 at `uv`, unit length, z > 0 away from the surface. Meant for images of
-    /// [`Encoding::Linear`]. Where the texture holds no direction: +z.
-    pub fn evaluate_normal(&self, uv: Vec2) -> Vec3 {
-        let [x, y, z] = self.evaluate(uv, 0.0);
+    /// The tangent-space normal 2·rgb − 1 at `uv`, averaged like [`Self::evaluate`] and made of unit length; z > 0
+    /// away from the surface. Meant for images of [`Encoding::Linear`]. Where the texture holds no direction: +z.
+    pub fn evaluate_normal(&self, uv: Vec2, footprint: f32) -> Vec3 {
+        let [x, y, z] = self.evaluate(uv, footprint);
         (2.0 * Vec3::new(x, y, z) - Vec3::ONE).try_normalize().unwrap_or(Vec3::Z)
     }
 

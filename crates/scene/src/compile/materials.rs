@@ -8,6 +8,9 @@ use scenefile::{Diagnostic, Sourced};
 use crate::texture::{Checker, Encoding, Filter, ImageTexture, UvMap, Wrap};
 use crate::{ColorSource, FloatSource, Material, MaterialId, MaterialKind, Texture};
 
+/// Checkers within checkers, at most: a cycle ends here.
+const DEEPEST_CHECKER: u32 = 16;
+
 /// Materials and textures as they are asked for.
 pub(super) struct Library<'d> {
     desc: &'d SceneDesc,
@@ -180,7 +183,7 @@ impl<'d> Library<'d> {
             self.unknown("unknown-texture", "texture", name);
             return None;
         };
-        let built = self.build(texture, as_normals);
+        let built = self.build(texture, as_normals, 0);
         let id = built.map(|t| {
             self.textures.push(t);
             (self.textures.len() - 1) as u32
@@ -189,12 +192,18 @@ impl<'d> Library<'d> {
         id
     }
 
-    fn build(&mut self, texture: &'d Sourced<desc::Texture>, as_normals: bool) -> Option<Texture> {
+    fn build(
+        &mut self,
+        texture: &'d Sourced<desc::Texture>,
+        as_normals: bool,
+        depth: u32,
+    ) -> Option<Texture> {
         match &texture.value {
             desc::Texture::Checker { a, b, scale } => {
-                let even = self.checker_color(a, texture)?;
-                let odd = self.checker_color(b, texture)?;
-                let map = UvMap { scale: Vec2::from(*scale), offset: Vec2::ZERO };
+                let even = self.checker_color(a, as_normals, depth)?.into();
+                let odd = self.checker_color(b, as_normals, depth)?.into();
+                // A square of the description is half a unit wide, one of the texture a whole one.
+                let map = UvMap { scale: 2.0 * Vec2::from(*scale), offset: Vec2::ZERO };
                 Some(Texture::Checker(Checker { even, odd, map }))
             }
             desc::Texture::Image { file, color_space, wrap, filter, scale, offset } => {
@@ -230,17 +239,27 @@ impl<'d> Library<'d> {
         }
     }
 
-    fn checker_color(&mut self, color: &ColorDesc, texture: &Sourced<desc::Texture>) -> Option<[f32; 3]> {
+    fn checker_color(&mut self, color: &'d ColorDesc, as_normals: bool, depth: u32) -> Option<Texture> {
         match color {
-            ColorDesc::Rgb(rgb) => Some(*rgb),
-            ColorDesc::Texture(name) => {
-                self.diagnostics.push(
-                    Diagnostic::error("texture-in-checker", "the colours of a checker are constant")
-                        .at(name.span.or(texture.span))
-                        .help("write two colours, such as `a = [0.8, 0.8, 0.8]`"),
-                );
-                None
-            }
+            ColorDesc::Rgb(rgb) => Some(Texture::Constant(*rgb)),
+            ColorDesc::Texture(name) => match self.desc.textures.get(name.as_str()) {
+                Some(texture) if depth < DEEPEST_CHECKER => self.build(texture, as_normals, depth + 1),
+                Some(_) => {
+                    self.diagnostics.push(
+                        Diagnostic::error(
+                            "texture-cycle",
+                            format!("texture `{}` is nested too deeply", name.value),
+                        )
+                        .at(name.span)
+                        .help("a checker must not contain itself"),
+                    );
+                    None
+                }
+                None => {
+                    self.unknown("unknown-texture", "texture", name);
+                    None
+                }
+            },
         }
     }
 }

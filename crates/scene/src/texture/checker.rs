@@ -1,14 +1,14 @@
 use math::Vec2;
 
-use super::UvMap;
+use super::{Texture, UvMap};
 
-/// Squares of two colours: the first where ⌊u⌋ + ⌊v⌋ is even, after mapping; one square is 1×1.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Squares of two textures: the first where ⌊u⌋ + ⌊v⌋ is even, after mapping; one square is 1×1.
+#[derive(Clone, Debug)]
 pub struct Checker {
-    /// Colour of the square at [0, 1)².
-    pub even: [f32; 3],
-    /// Colour of its neighbours.
-    pub odd: [f32; 3],
+    /// What fills the square at [0, 1)²; looked up by the coordinates before mapping.
+    pub even: Box<Texture>,
+    /// What fills its neighbours.
+    pub odd: Box<Texture>,
     /// Mapping of texture coordinates; a scale of 10 gives 10 squares per unit.
     pub map: UvMap,
 }
@@ -20,11 +20,16 @@ impl Checker {
         // The sign of a square is the product of two square waves, and so is its mean over a box.
         let sign = mean_square_wave(p.x, width.x) * mean_square_wave(p.y, width.y);
         let t = (0.5 + 0.5 * sign) as f32;
-        std::array::from_fn(|c| self.odd[c] + t * (self.even[c] - self.odd[c]))
+        // Inside a square only its own texture is looked up.
+        let texture =
+            |t: &Texture, share: f32| if share > 0.0 { t.evaluate(uv, footprint) } else { [0.0; 3] };
+        let (even, odd) = (texture(&self.even, t), texture(&self.odd, 1.0 - t));
+        std::array::from_fn(|c| t * even[c] + (1.0 - t) * odd[c])
     }
 
     pub(super) fn mean(&self) -> [f32; 3] {
-        std::array::from_fn(|c| 0.5 * (self.even[c] + self.odd[c]))
+        let (even, odd) = (self.even.mean(), self.odd.mean());
+        std::array::from_fn(|c| 0.5 * (even[c] + odd[c]))
     }
 }
 
@@ -46,7 +51,11 @@ mod tests {
     #[test]
     fn filtered_is_the_mean_of_points() {
         let map = UvMap { scale: Vec2::new(3.0, -2.0), offset: Vec2::new(0.2, 0.7) };
-        let t = Checker { even: [1.0, 0.5, 0.0], odd: [0.0, 0.25, 2.0], map };
+        let t = Checker {
+            even: Texture::Constant([1.0, 0.5, 0.0]).into(),
+            odd: Texture::Constant([0.0, 0.25, 2.0]).into(),
+            map,
+        };
         for (u, v, width) in [(0.1, 0.2, 0.3), (-4.3, 7.7, 0.05), (0.5, 0.5, 1.7), (2.0, 3.0, 0.6)] {
             let n = 400;
             let mut sum = [0f64; 3];

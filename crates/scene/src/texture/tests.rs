@@ -90,10 +90,10 @@ fn pyramid_keeps_the_mean_of_odd_sizes_and_trilinear_blurs() {
 #[test]
 fn normals_are_unit_vectors() {
     let flat = Texture::Constant([0.5, 0.5, 1.0]);
-    assert_eq!(flat.evaluate_normal(Vec2::ZERO), Vec3::Z);
-    let tilted = Texture::Constant([1.0, 0.5, 1.0]).evaluate_normal(Vec2::ZERO);
+    assert_eq!(flat.evaluate_normal(Vec2::ZERO, 0.0), Vec3::Z);
+    let tilted = Texture::Constant([1.0, 0.5, 1.0]).evaluate_normal(Vec2::ZERO, 0.0);
     assert!((tilted - Vec3::new(0.5f32.sqrt(), 0.0, 0.5f32.sqrt())).length() < 1e-6);
-    assert_eq!(Texture::Constant([0.5; 3]).evaluate_normal(Vec2::ZERO), Vec3::Z);
+    assert_eq!(Texture::Constant([0.5; 3]).evaluate_normal(Vec2::ZERO, 0.0), Vec3::Z);
 }
 
 #[test]
