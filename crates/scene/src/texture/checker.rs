@@ -69,7 +69,7 @@ mod tests {
                 assert!((s / f64::from(n * n) - f64::from(b)).abs() < 0.01, "{u} {v} {width}");
             }
         }
-        assert_eq!(t.evaluate(Vec2::new(0.01, 0.01), 0.0), t.even);
+        assert_eq!(t.evaluate(Vec2::new(0.01, 0.01), 0.0), t.even.mean());
         let far = t.evaluate(Vec2::new(0.3, 0.3), 1e4);
         assert!(far.iter().zip(t.mean()).all(|(a, b)| (a - b).abs() < 1e-3));
     }
