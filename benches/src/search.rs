@@ -316,11 +316,11 @@ fn map(data: &Data, one: &par::Workers, results: &mut Vec<(String, f64)>) {
                     let (normal, kernel) = (inward(position), Kernel::Epanechnikov);
                     if k == 0 {
                         let query = Query { position, normal, radius: data.radius, kernel };
-                        map.gather(&query, |p, w| sum += p.power.max() * w * p.direction.z);
+                        map.gather(&query, |p, w| sum += p.power.max() * w * p.direction().z);
                     } else {
                         let query = Query { position, normal, radius: 1.0, kernel };
                         map.gather_knn(&query, k, &mut scratch, |p, w| {
-                            sum += p.power.max() * w * p.direction.z
+                            sum += p.power.max() * w * p.direction().z
                         });
                     }
                 }

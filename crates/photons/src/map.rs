@@ -44,21 +44,42 @@ impl Query {
     }
 }
 
-/// A photon as a gather sees it.
+/// A photon as a gather sees it. What a gather may not need is unpacked when asked for.
 #[derive(Clone, Copy, Debug)]
-pub struct PhotonView {
-    /// wi: unit, toward where the photon came from, within 0.004°. Where the surface curves so much between photon
-    /// and query that wi would lie below the query's horizon, it is turned along by the rotation that takes n_p to
-    /// n_x: on its own side of its own surface it did arrive, and its flux belongs to the estimate.
-    pub direction: Vec3,
+pub struct PhotonView<'m> {
+    map: &'m PhotonMap,
+    /// Normal of the query.
+    normal: Vec3,
     /// Flux Φ, W in each lane, as it was deposited.
     pub power: Lanes,
-    /// Number of scattering events between the light and this hit.
-    pub depth: u8,
-    /// What the path was.
-    pub flags: PhotonFlags,
     /// Place in tree order: names the photon within its map.
     pub slot: u32,
+}
+
+impl PhotonView<'_> {
+    /// wi: unit, toward where the photon came from, within 0.004°; always above the query's horizon. Where the
+    /// surface curves so much between photon and query that wi would lie below it, wi is turned along by the rotation
+    /// that takes n_p to n_x: on its own side of its own surface it did arrive, and its flux belongs to the estimate.
+    #[inline]
+    pub fn direction(&self) -> Vec3 {
+        let direction = self.map.payloads[self.slot as usize].direction();
+        if direction.dot(self.normal) > 0.0 {
+            return direction;
+        }
+        turned(direction, self.map.normal(self.slot), self.normal)
+    }
+
+    /// Number of scattering events between the light and this hit.
+    #[inline]
+    pub fn depth(&self) -> u8 {
+        self.map.marks[self.slot as usize][0]
+    }
+
+    /// What the path was.
+    #[inline]
+    pub fn flags(&self) -> PhotonFlags {
+        PhotonFlags(self.map.marks[self.slot as usize][1])
+    }
 }
 
 /// What [`PhotonMap::gather_knn`] looked at.
@@ -196,7 +217,7 @@ impl PhotonMap {
     /// number. Σ f·Φ·weight estimates reflected radiance: no further cosine, for the flux has it already (Jensen
     /// 1996, eq. 7).
     #[inline]
-    pub fn gather(&self, query: &Query, mut f: impl FnMut(&PhotonView, f32)) -> usize {
+    pub fn gather(&self, query: &Query, mut f: impl FnMut(&PhotonView<'_>, f32)) -> usize {
         if !query.has_area() {
             return 0;
         }
@@ -224,7 +245,7 @@ impl PhotonMap {
         query: &Query,
         k: usize,
         scratch: &mut Scratch,
-        mut f: impl FnMut(&PhotonView, f32),
+        mut f: impl FnMut(&PhotonView<'_>, f32),
     ) -> Neighbourhood {
         if !query.has_area() {
             return Neighbourhood::default();
@@ -249,7 +270,13 @@ impl PhotonMap {
 
     /// Calls `f` for each of the candidates.
     #[inline]
-    fn show_all(&self, found: &[u64], query: &Query, per_radius2: f32, f: &mut impl FnMut(&PhotonView, f32)) {
+    fn show_all(
+        &self,
+        found: &[u64],
+        query: &Query,
+        per_radius2: f32,
+        f: &mut impl FnMut(&PhotonView<'_>, f32),
+    ) {
         for (i, &candidate) in found.iter().enumerate() {
             if let Some(payload) = found.get(i + AHEAD).and_then(|&c| self.payloads.get(unpack(c).1 as usize))
             {
@@ -261,16 +288,11 @@ impl PhotonMap {
 
     /// Calls `f` for one photon.
     #[inline]
-    fn show(&self, slot: u32, query: &Query, per_radius2: f32, f: &mut impl FnMut(&PhotonView, f32)) {
+    fn show(&self, slot: u32, query: &Query, per_radius2: f32, f: &mut impl FnMut(&PhotonView<'_>, f32)) {
         let t2 = (self.tree.position(slot) - query.position).length_squared() * per_radius2;
         let weight = query.kernel.value_of_square(t2.min(1.0)) * per_radius2;
         let payload = &self.payloads[slot as usize];
-        let [depth, flags] = self.marks[slot as usize];
-        let mut direction = payload.direction();
-        if direction.dot(query.normal) <= 0.0 {
-            direction = turned(direction, self.normal(slot), query.normal);
-        }
-        f(&PhotonView { direction, power: payload.power(), depth, flags: PhotonFlags(flags), slot }, weight);
+        f(&PhotonView { map: self, normal: query.normal, power: payload.power(), slot }, weight);
     }
 
     #[inline]

@@ -65,7 +65,7 @@ fn sphere_furnace_at_four_radii_and_with_every_kernel() {
         for kernel in Kernel::ALL {
             let gather = |map: &PhotonMap, q: &Query, f: &mut dyn FnMut(Vec3, f32, f32)| {
                 let q = Query { radius: fraction * RADIUS, kernel, ..*q };
-                map.gather(&q, |p, w| f(p.direction, p.power.0.x, w));
+                map.gather(&q, |p, w| f(p.direction(), p.power.0.x, w));
             };
             let samples: Vec<f64> = maps.iter().map(|map| radiance(map, places, gather)).collect();
             assert_agree(&samples, exact, &format!("radius {fraction} R, {kernel:?}"));
@@ -74,7 +74,7 @@ fn sphere_furnace_at_four_radii_and_with_every_kernel() {
     for (k, places) in [(30, 120), (300, 40), (3000, 10)] {
         let gather = |map: &PhotonMap, q: &Query, f: &mut dyn FnMut(Vec3, f32, f32)| {
             let q = Query { radius: RADIUS, kernel: Kernel::Epanechnikov, ..*q };
-            map.gather_knn(&q, k, &mut Scratch::new(), |p, w| f(p.direction, p.power.0.x, w));
+            map.gather_knn(&q, k, &mut Scratch::new(), |p, w| f(p.direction(), p.power.0.x, w));
         };
         let samples: Vec<f64> = maps.iter().map(|map| radiance(map, places, gather)).collect();
         assert_agree(&samples, exact, &format!("{k} nearest"));

@@ -128,7 +128,7 @@ fn unsound_photons_are_left_out_and_counted() {
     let map = PhotonMap::build(photons);
     assert_eq!((map.len(), map.rejected()), (497, 3));
     let query = Query { position: Vec3::ZERO, normal: Vec3::Z, radius: 9.0, kernel: Kernel::Constant };
-    map.gather(&query, |p, w| assert!(p.power.is_finite() && p.direction.is_finite() && w.is_finite()));
+    map.gather(&query, |p, w| assert!(p.power.is_finite() && p.direction().is_finite() && w.is_finite()));
 }
 
 #[test]
@@ -142,7 +142,7 @@ fn the_map_does_not_depend_on_the_number_of_threads() {
         for i in 0..40 {
             let position = map.photon(i * 1000).position;
             let query = Query { position, normal: Vec3::Z, radius: 0.1, kernel: Kernel::Silverman };
-            map.gather(&query, |p, w| bits.extend([p.slot, w.to_bits(), p.direction.x.to_bits()]));
+            map.gather(&query, |p, w| bits.extend([p.slot, w.to_bits(), p.direction().x.to_bits()]));
             map.gather_knn(&query, 60, &mut scratch, |p, w| bits.extend([p.slot, w.to_bits()]));
         }
         bits.extend((0..map.len() as u32).map(|slot| map.photon(slot).power.0.x.to_bits()));

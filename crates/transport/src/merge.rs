@@ -1,5 +1,6 @@
-use bsdf::TransportMode;
+use bsdf::{BsdfKind, TransportMode};
 use color::Lanes;
+use math::FRAC_1_PI;
 use photons::{Kernel, PhotonMap, Query, Scratch};
 
 use crate::Vertex;
@@ -49,10 +50,24 @@ pub(crate) fn query(vertex: &Vertex, lookup: &Lookup) -> Query {
 pub fn merge(map: &PhotonMap, vertex: &Vertex, lookup: &Lookup, scratch: &mut Scratch) -> Merged {
     let query = query(vertex, lookup);
     let (ns, ng) = (vertex.bsdf.ns(), vertex.hit.ng);
+    if let BsdfKind::Diffuse { albedo } = *vertex.bsdf.kind()
+        && ns == ng
+    {
+        // f is the same for every photon above the surface, which they all are.
+        let mut irradiance = Lanes::ZERO;
+        let found =
+            map.gather_knn(&query, lookup.knn, scratch, |photon, weight| irradiance += photon.power * weight);
+        return Merged {
+            radiance: albedo * irradiance * FRAC_1_PI,
+            radius: found.radius,
+            count: found.count,
+        };
+    }
     let mut radiance = Lanes::ZERO;
     let found = map.gather_knn(&query, lookup.knn, scratch, |photon, weight| {
-        let f = vertex.bsdf.eval(vertex.wo, photon.direction, TransportMode::Radiance);
-        let bend = if ns == ng { 1.0 } else { bend(photon.direction.dot(ns), photon.direction.dot(ng)) };
+        let wi = photon.direction();
+        let f = vertex.bsdf.eval(vertex.wo, wi, TransportMode::Radiance);
+        let bend = if ns == ng { 1.0 } else { bend(wi.dot(ns), wi.dot(ng)) };
         radiance += f * photon.power * (weight * bend);
     });
     Merged { radiance, radius: found.radius, count: found.count }
