@@ -31,6 +31,9 @@ const CAUSTIC_PIXELS: f32 = 8.0;
 /// Gather rays shorter than this many typical radii end in a second gather instead of a lookup: so near, the
 /// estimate's blur would show (Christensen 1999).
 const NEAR: f32 = 1.5;
+/// Stored irradiance is that on the true surface; where the shading normal bends away from its normal by more than
+/// acos of this, photons are looked up one by one.
+const LEVEL_COSINE: f32 = 0.995;
 
 pub(crate) struct Eye<'a> {
     pub scene: &'a Scene,
@@ -267,8 +270,9 @@ impl Eye<'_> {
         }
         let lookup = global_lookup(self.settings, global);
         if let BsdfKind::Diffuse { albedo } = *y.bsdf.kind()
+            && y.bsdf.ns().dot(y.hit.ng).abs() > LEVEL_COSINE
             && let Some(samples) = &self.maps.irradiance
-            && let Some(e) = nearest_irradiance(samples, y, lookup.max_radius, scratch)
+            && let Some(e) = nearest_irradiance(samples, y, global.typical_radius, scratch)
         {
             out.indirect += ray.throughput * albedo * e * FRAC_1_PI;
             return;

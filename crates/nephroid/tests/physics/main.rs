@@ -1,0 +1,19 @@
+//! Whether the pictures are right: closed forms, conservation laws, another renderer's pictures, and one regression test
+//! for each classic mistake of photon mapping (ARCHITECTURE.md). Every comparison also shows that it would have rejected an
+//! error of 2 %, or the mistake itself.
+#![allow(clippy::unwrap_used, reason = "helpers of tests, too")]
+
+mod agreement;
+mod balance;
+mod caustics;
+mod closed_forms;
+mod depth;
+mod determinism;
+mod furnace;
+mod lamps;
+mod nephroid_curve;
+mod nested;
+mod oracle;
+mod support;
+mod traps;
+mod window;
