@@ -113,12 +113,6 @@ fn assert_agrees(what: &str, renders: &[RgbImage], name: &str, mask: Option<&[bo
         let planted = compare(&scaled(&image, factor), &reference, mask).unwrap();
         assert!(!failures(&planted, bars).is_empty(), "{what}: blind to a factor of {factor}: {planted:?}");
     }
-    println!(
-        "{what}: bias {:+.3} ± {:.3} %, block median {:.3} %",
-        100.0 * comparison.bias,
-        100.0 * biases.standard_error(),
-        100.0 * comparison.block_median.unwrap()
-    );
 }
 
 fn renders(desc: &SceneDesc, integrator: IntegratorKind, n: u64, passes: u32) -> Vec<RgbImage> {

@@ -24,7 +24,7 @@ struct Case {
 
 enum Source {
     Light(LightKind),
-    Lamp(Object),
+    Lamp(Box<Object>),
 }
 
 fn cases() -> Vec<Case> {
@@ -75,13 +75,13 @@ fn cases() -> Vec<Case> {
         },
         Case {
             name: "disc",
-            light: Source::Lamp(lamp(disk(position, [0.0, -1.0, 0.0], b as f32), 1.5)),
+            light: Source::Lamp(Box::new(lamp(disk(position, [0.0, -1.0, 0.0], b as f32), 1.5))),
             irradiance: 1.5 * PI * b * b / (b * b + h * h),
             flux: 1.5 * PI * PI * b * b * discs,
         },
         Case {
             name: "sphere",
-            light: Source::Lamp(lamp(sphere(position, r as f32), 1.5)),
+            light: Source::Lamp(Box::new(lamp(sphere(position, r as f32), 1.5))),
             irradiance: 1.5 * PI * (r / h).powi(2),
             flux: 1.5 * PI * 4.0 * PI * r * r * 0.5 * (1.0 - h / h.hypot(a)),
         },
@@ -94,7 +94,7 @@ fn scene(case: &Case) -> SceneDesc {
     let mut desc = scene_of(camera, 8, vec![Object::new(ground(0.0, 2.0), grey(ALBEDO as f32))]);
     match &case.light {
         Source::Light(kind) => desc.lights.push(Light::from(*kind).into()),
-        Source::Lamp(object) => desc.objects.push(object.clone().into()),
+        Source::Lamp(object) => desc.objects.push((**object).clone().into()),
     }
     desc
 }

@@ -141,7 +141,6 @@ fn distance(points: &[([f64; 2], f64)], curve: Curve, scale: f64, bin: f64) -> f
 #[track_caller]
 fn assert_ridge(points: &[([f64; 2], f64)], curve: Curve, bin: f64) {
     let right = distance(points, curve, 1.0, bin);
-    println!("ridge {right}, cusp {}", cusp(points, curve, 1.0, bin));
     assert!(right < BAR, "the ridge is {right} from the curve");
     // A curve 2 % larger or smaller moves by 0.02·sin t (nephroid) or 0.02·sin t/2 (cardioid)
     // along its normal: 0.017 at 60°, 0.015 at 96°.
