@@ -235,9 +235,9 @@ impl Default for PhotonMap {
     fn default() -> Self {
         Self {
             photons: 200_000,
-            caustic_photons: 400_000,
+            caustic_photons: 1_000_000,
             knn: 100,
-            caustic_knn: 60,
+            caustic_knn: 100,
             filter: PhotonFilter::Constant,
             caustic_filter: PhotonFilter::Epanechnikov,
             radius: None,
