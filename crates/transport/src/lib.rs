@@ -13,4 +13,4 @@ pub use emit::{EmittedPhoton, emit, emit_toward_targets};
 pub use merge::{Lookup, Merged, irradiance, merge, nearest_irradiance};
 pub use path_class::{LightLayer, PathClass};
 pub use photon::{PhotonBalance, PhotonBatch, PhotonJob, PhotonPaths, trace_photons};
-pub use walk::{Scattered, Vertex, Walk};
+pub use walk::{ENDLESS_DEPTH, Scattered, Vertex, Walk};

@@ -4,6 +4,11 @@ use math::{Ray, Vec3};
 use sampling::Sampler;
 use scene::{Boundary, LightId, MediumStack, Scene, SurfaceInteraction};
 
+/// Scattering events after which every walk may end.
+pub const ENDLESS_DEPTH: u32 = 64;
+/// Chance to survive each event from then on.
+const ENDLESS_SURVIVAL: f32 = 0.9;
+
 /// A random walk through the scene, from the camera or from a light. The loop stays with the integrator:
 ///
 /// ```text
@@ -187,9 +192,11 @@ impl<'s> Walk<'s> {
         self.ray = vertex.hit.spawn_ray(wi);
     }
 
-    /// Russian roulette: survives with probability min(1, `survival`), which throughput is divided by.
+    /// Russian roulette: survives with probability min(1, `survival`), which throughput is divided by. After
+    /// [`ENDLESS_DEPTH`] events no walk is certain to survive: light can run round inside glass for ever.
     #[inline]
     pub fn roulette(&mut self, survival: f32, sampler: &mut Sampler) -> bool {
+        let survival = if self.depth > ENDLESS_DEPTH { survival.min(ENDLESS_SURVIVAL) } else { survival };
         if survival >= 1.0 {
             return true;
         }
