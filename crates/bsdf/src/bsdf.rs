@@ -175,6 +175,7 @@ impl Bsdf {
     }
 
     /// Properties of all its lobes together.
+    #[inline]
     pub fn lobes(&self) -> Lobes {
         match self.kind {
             BsdfKind::Diffuse { .. } => diffuse::LOBES,
@@ -223,6 +224,16 @@ impl Bsdf {
         }
         match self.kind {
             BsdfKind::Diffuse { albedo } if allowed.contains(diffuse::LOBES) => diffuse::eval(albedo),
+            BsdfKind::Diffuse { .. } => Lanes::ZERO,
+            _ => self.eval_glossy(wo, wi, allowed),
+        }
+    }
+
+    /// [`Self::eval_lobes`] of what is not Lambertian: like all such functions out of the way of loops over paths, and
+    /// by value, so that a `Bsdf` that is only diffuse need not lie in memory.
+    #[inline(never)]
+    fn eval_glossy(self, wo: Vec3, wi: Vec3, allowed: Lobes) -> Lanes {
+        match self.kind {
             BsdfKind::Phong { .. } => {
                 let (wo, wi) = self.local_pair(wo, wi);
                 self.phong(allowed).eval(wo, wi)
@@ -254,6 +265,14 @@ impl Bsdf {
         }
         match self.kind {
             BsdfKind::Diffuse { .. } if allowed.contains(diffuse::LOBES) => diffuse::pdf_w(self.abs_cos(wi)),
+            BsdfKind::Diffuse { .. } => 0.0,
+            _ => self.pdf_w_glossy(wo, wi, allowed),
+        }
+    }
+
+    #[inline(never)]
+    fn pdf_w_glossy(self, wo: Vec3, wi: Vec3, allowed: Lobes) -> f32 {
+        match self.kind {
             BsdfKind::Phong { .. } => {
                 let (wo, wi) = self.local_pair(wo, wi);
                 self.phong(allowed).pdf_w(wo, wi)
@@ -289,9 +308,32 @@ impl Bsdf {
         mode: TransportMode,
     ) -> Option<BsdfSample> {
         let side = self.side(wo)?;
-        let local = self.local(wo, side);
         let drawn = match self.kind {
             BsdfKind::Diffuse { albedo } if allowed.contains(diffuse::LOBES) => diffuse::sample(albedo, u),
+            BsdfKind::Diffuse { .. } | BsdfKind::Black => None,
+            _ => self.draw(self.local(wo, side), side, allowed, u_lobe, u, mode),
+        }?;
+        let wi = self.world(drawn.wi, side);
+        let valid = if drawn.lobes.contains(Lobes::REFLECTION) {
+            self.reflects(wo, wi)
+        } else {
+            self.transmits(wo, wi)
+        };
+        valid.then_some(BsdfSample { wi, ..drawn })
+    }
+
+    /// A local direction of what is not Lambertian.
+    #[inline(never)]
+    fn draw(
+        self,
+        local: Vec3,
+        side: f32,
+        allowed: Lobes,
+        u_lobe: f32,
+        u: [f32; 2],
+        mode: TransportMode,
+    ) -> Option<BsdfSample> {
+        match self.kind {
             BsdfKind::Diffuse { .. } | BsdfKind::Black => None,
             BsdfKind::Phong { .. } => self.phong(allowed).sample(local, u_lobe, u),
             BsdfKind::Conductor { n, k, alpha } if alpha > 0.0 => {
@@ -309,14 +351,7 @@ impl Bsdf {
                 let [lobe, _] = self.local_delta_lobes(local, side, mode);
                 lobe.filter(|l| allowed.contains(l.lobes)).map(|l| l.drawn(1.0))
             }
-        }?;
-        let wi = self.world(drawn.wi, side);
-        let valid = if drawn.lobes.contains(Lobes::REFLECTION) {
-            self.reflects(wo, wi)
-        } else {
-            self.transmits(wo, wi)
-        };
-        valid.then_some(BsdfSample { wi, ..drawn })
+        }
     }
 
     /// All directions into which delta lobes scatter: at most one reflected (first) and one transmitted.
@@ -353,7 +388,16 @@ impl Bsdf {
     /// Share of the flux from `wo` that is scattered at all, per lane: exact for diffuse, mirror, dielectric and
     /// smooth kinds; within the tables' 1 % for rough plastic; for rough conductors with Fresnel taken at the
     /// mirror's angle; for phong the upper bound kd + ks.
+    #[inline]
     pub fn albedo(&self, wo: Vec3) -> Lanes {
+        match self.kind {
+            BsdfKind::Diffuse { albedo } => albedo,
+            _ => self.albedo_glossy(wo),
+        }
+    }
+
+    #[inline(never)]
+    fn albedo_glossy(self, wo: Vec3) -> Lanes {
         let cos_o = self.abs_cos(wo);
         match self.kind {
             BsdfKind::Diffuse { albedo } => albedo,

@@ -26,6 +26,6 @@ pub use filter::{Filter, FilterKind, FilterSample};
 pub use flip::flip;
 pub use layer::Layer;
 pub use output::{OutputError, OutputErrorKind, check_writable, write_atomically};
-pub use pass_film::{NonFinite, PassFilm, PixelSample, Tiles};
+pub use pass_film::{NonFinite, PassFilm, PixelSample};
 pub use png_file::{PngOptions, encode_png, encode_png_bytes, write_png};
 pub use read::{ReadError, ReadErrorKind, RgbImage};

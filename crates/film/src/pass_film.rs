@@ -1,5 +1,3 @@
-use std::ops::Range;
-
 use crate::fixed::MAX_VALUE;
 use crate::{FilmError, Layer};
 
@@ -133,40 +131,6 @@ impl PassFilm {
         Ok(Self { width, height, pixels, nonfinite, nonfinite_count })
     }
 
-    /// From consecutive pieces of the row-by-row order, as `par::map_chunks` gives them.
-    ///
-    /// # Errors
-    /// As [`new`](Self::new).
-    pub fn from_chunks(
-        width: usize,
-        height: usize,
-        chunks: Vec<Vec<PixelSample>>,
-    ) -> Result<Self, FilmError> {
-        Self::new(width, height, chunks.concat())
-    }
-
-    /// From the tiles of `tiles` in index order, each row by row.
-    ///
-    /// # Errors
-    /// [`FilmError::Size`] where a tile is missing or of another size.
-    pub fn from_tiles(tiles: &Tiles, samples: &[Vec<PixelSample>]) -> Result<Self, FilmError> {
-        let (width, height) = (tiles.width, tiles.height);
-        if samples.len() != tiles.len() {
-            return Err(FilmError::Size { expected: [tiles.len(), 1], found: [samples.len(), 1] });
-        }
-        let mut pixels = vec![PixelSample::default(); width * height];
-        for (i, tile) in samples.iter().enumerate() {
-            let (xs, ys) = tiles.pixels(i);
-            if tile.len() != xs.len() * ys.len() {
-                return Err(FilmError::Size { expected: [xs.len(), ys.len()], found: [tile.len(), 1] });
-            }
-            for (y, row) in ys.zip(tile.chunks_exact(xs.len())) {
-                pixels[y * width + xs.start..y * width + xs.end].copy_from_slice(row);
-            }
-        }
-        Self::new(width, height, pixels)
-    }
-
     /// Pixels a row.
     pub fn width(&self) -> usize {
         self.width
@@ -190,41 +154,5 @@ impl PassFilm {
     /// How many values were kept out.
     pub fn nonfinite_count(&self) -> u64 {
         self.nonfinite_count
-    }
-}
-
-/// An image cut into squares, row by row; those at the right and lower edge may be smaller.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Tiles {
-    width: usize,
-    height: usize,
-    size: usize,
-}
-
-impl Tiles {
-    /// Tiles of `size` × `size` pixels (at least 1).
-    pub fn new(width: usize, height: usize, size: usize) -> Self {
-        Self { width, height, size: size.max(1) }
-    }
-
-    /// Number of tiles.
-    pub fn len(&self) -> usize {
-        self.columns() * self.height.div_ceil(self.size)
-    }
-
-    /// Whether the image has no pixel.
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// Columns and rows of pixels of tile `index`.
-    pub fn pixels(&self, index: usize) -> (Range<usize>, Range<usize>) {
-        let columns = self.columns().max(1);
-        let (x, y) = ((index % columns) * self.size, (index / columns) * self.size);
-        (x..(x + self.size).min(self.width), y..(y + self.size).min(self.height))
-    }
-
-    fn columns(&self) -> usize {
-        self.width.div_ceil(self.size)
     }
 }

@@ -26,6 +26,7 @@ impl Path {
         Self { settings }
     }
 
+    #[inline]
     fn trace(&self, CameraPath { mut walk, mut sampler }: CameraPath<'_>, sample: &mut PixelSample) {
         let scene = walk.scene();
         let mut class = PathClass::default();

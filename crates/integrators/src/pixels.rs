@@ -2,7 +2,7 @@
 
 use bsdf::TransportMode;
 use color::Lanes;
-use film::{FilmError, PassFilm, PixelSample, Tiles};
+use film::{FilmError, PassFilm, PixelSample};
 use math::Vec2;
 use sampling::{Domain, Sampler, Streams, shifted_r2};
 use scene::Scene;
@@ -10,8 +10,10 @@ use transport::{LightLayer, Vertex, Walk};
 
 use crate::Settings;
 
-/// Side of the squares that are handed to threads, in pixels. Part of no result: pixels share nothing.
-const TILE: usize = 16;
+/// Rows that are handed to a thread at once, and columns of them that are gone through together, so that neighbouring
+/// paths use the same memory. Part of no result: pixels share nothing.
+const BAND: usize = 4;
+const COLUMNS: usize = 16;
 
 /// A camera path about to start.
 pub(crate) struct CameraPath<'s> {
@@ -27,24 +29,22 @@ pub(crate) fn render_pixels<'s>(
     f: impl Fn(CameraPath<'s>, &mut PixelSample) + Sync,
 ) -> Result<PassFilm, FilmError> {
     let [width, height] = scene.resolution().map(|n| n as usize);
-    let tiles = Tiles::new(width, height, TILE);
     let streams = Streams::new(settings.seed, pass, Domain::Camera);
-    let samples = par::map(tiles.len(), |i| {
-        let (xs, ys) = tiles.pixels(i);
-        let mut out = Vec::with_capacity(xs.len() * ys.len());
-        for y in ys {
-            for x in xs.clone() {
-                let mut sample = PixelSample::default();
-                let path = start(scene, settings, &streams, pass, [x, y], &mut sample);
-                f(path, &mut sample);
-                out.push(sample);
+    let mut samples = vec![PixelSample::default(); width * height];
+    par::fill_chunks(&mut samples, width * BAND, |band, samples| {
+        for first in (0..width).step_by(COLUMNS) {
+            for (y, row) in samples.chunks_mut(width).enumerate() {
+                for (x, sample) in row.iter_mut().enumerate().skip(first).take(COLUMNS) {
+                    let path = start(scene, settings, &streams, pass, [x, band * BAND + y], sample);
+                    f(path, sample);
+                }
             }
         }
-        out
     });
-    PassFilm::from_tiles(&tiles, &samples)
+    PassFilm::new(width, height, samples)
 }
 
+#[inline]
 fn start<'s>(
     scene: &'s Scene,
     settings: &Settings,
@@ -66,6 +66,7 @@ fn start<'s>(
 }
 
 /// Adds radiance to a layer of a sample.
+#[inline]
 pub(crate) fn add(sample: &mut PixelSample, layer: LightLayer, radiance: Lanes) {
     let target = match layer {
         LightLayer::Direct => &mut sample.direct,
@@ -78,6 +79,7 @@ pub(crate) fn add(sample: &mut PixelSample, layer: LightLayer, radiance: Lanes) 
 }
 
 /// Writes what the first surface of a path is like.
+#[inline]
 pub(crate) fn add_features(sample: &mut PixelSample, vertex: &Vertex) {
     let ns = vertex.bsdf.ns();
     let facing = if ns.dot(vertex.wo) < 0.0 { -ns } else { ns };

@@ -13,6 +13,7 @@ pub struct Frame {
 
 impl Frame {
     /// A basis about the unit vector `z` (Duff et al. 2017, "Building an orthonormal basis, revisited").
+    #[inline]
     pub fn from_z(z: Vec3) -> Self {
         let sign = 1f32.copysign(z.z);
         let a = -1.0 / (sign + z.z);

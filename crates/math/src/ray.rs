@@ -14,11 +14,13 @@ pub struct Ray {
 
 impl Ray {
     /// A ray without end.
+    #[inline]
     pub fn new(origin: Vec3, direction: Vec3) -> Self {
         Self { origin, direction, t_max: f32::INFINITY }
     }
 
     /// The point at `t`.
+    #[inline]
     pub fn at(&self, t: f32) -> Vec3 {
         self.origin + self.direction * t
     }
@@ -31,12 +33,12 @@ pub const fn gamma(n: u32) -> f32 {
 }
 
 /// Where a ray that leaves along `w` starts: `p` moved along the normal `n` (either orientation) to the side of `w`,
-/// past the box of half-size `p_error` that is known to hold the true point (Pharr, Jakob & Humphreys 2023, §6.8.6).
+/// past the cube of half-size `p_error` that is known to hold the true point (Pharr, Jakob & Humphreys 2023, §6.8.6).
 ///
-/// Instead of rounding each coordinate outward, it goes a quarter farther than the box: more than the rounding of
-/// the sum, as long as `p_error` is the same along all axes and at least four roundings of the greatest coordinate.
+/// Instead of rounding each coordinate outward, it goes a quarter farther than the cube: more than the rounding of
+/// the sum, as long as `p_error` is at least four roundings of the greatest coordinate.
 #[inline]
-pub fn offset_ray_origin(p: Vec3, p_error: Vec3, n: Vec3, w: Vec3) -> Vec3 {
-    let d = (1.25 * n.abs().dot(p_error)).copysign(w.dot(n));
+pub fn offset_ray_origin(p: Vec3, p_error: f32, n: Vec3, w: Vec3) -> Vec3 {
+    let d = (1.25 * p_error * n.abs().element_sum()).copysign(w.dot(n));
     p + n * d
 }

@@ -48,6 +48,11 @@ pub fn map<R: Send>(len: usize, f: impl Fn(usize) -> R + Sync) -> Vec<R> {
     (0..len).into_par_iter().map(&f).collect()
 }
 
+/// `f` over the pieces of `out` of `chunk` elements (the last may be shorter), each with its number.
+pub fn fill_chunks<T: Send>(out: &mut [T], chunk: usize, f: impl Fn(usize, &mut [T]) + Sync) {
+    out.par_chunks_mut(chunk.max(1)).enumerate().for_each(|(i, piece)| f(i, piece));
+}
+
 /// Both closures, at once where a thread is free.
 pub fn join<A: Send, B: Send>(a: impl FnOnce() -> A + Send, b: impl FnOnce() -> B + Send) -> (A, B) {
     rayon::join(a, b)
@@ -62,6 +67,15 @@ mod tests {
         let expected: Vec<_> = (0..1003).map(|i| i * i).collect();
         for threads in [1, 2, 3, 7] {
             let workers = Workers::new(threads).unwrap();
+            let mut filled = vec![0; expected.len()];
+            workers.run(|| {
+                fill_chunks(&mut filled, 10, |i, piece| {
+                    for (k, x) in piece.iter_mut().enumerate() {
+                        *x = (i * 10 + k).pow(2);
+                    }
+                });
+            });
+            assert_eq!(filled, expected);
             let chunks = workers.run(|| map_chunks(1003, 10, |r| r.map(|i| i * i).collect::<Vec<_>>()));
             assert_eq!(chunks.concat(), expected);
             assert_eq!(workers.run(|| map(1003, |i| i * i)), expected);

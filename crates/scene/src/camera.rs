@@ -90,6 +90,9 @@ pub struct View {
     fov: Fov,
     /// Half the picture's width and height at distance 1.
     half: Vec2,
+    /// A pixel's width and height at distance 1, and the square root of their product.
+    pixel: Vec2,
+    pixel_side: f32,
 }
 
 /// A camera.
@@ -154,6 +157,7 @@ impl Camera {
         }
     }
 
+    #[inline]
     fn view(&self) -> &View {
         match self {
             Self::Pinhole(view) | Self::ThinLens(view, _) => view,
@@ -181,8 +185,7 @@ impl Camera {
             return Err(CameraError::NoPixels);
         }
         let mut view = *self.view();
-        view.resolution = resolution;
-        view.half = view.fov.half_size(resolution);
+        view.fit(resolution);
         Ok(match self {
             Self::Pinhole(_) => Self::Pinhole(view),
             Self::ThinLens(_, lens) => Self::ThinLens(view, lens),
@@ -190,6 +193,7 @@ impl Camera {
     }
 
     /// The ray of a film position through a point of the lens (`u_lens` uniform in [0, 1)²; unused by a pinhole).
+    #[inline]
     pub fn sample_we(&self, film_position: Vec2, u_lens: [f32; 2]) -> CameraSample {
         let view = self.view();
         let at_one = view.at_one(film_position);
@@ -202,9 +206,9 @@ impl Camera {
             }
         };
         let local = direction.normalize();
-        let spread = (view.pixel_area() * local.z.abs().powi(3)).sqrt();
-        let ray =
-            Ray::new(view.position + view.frame.to_world(origin), view.frame.to_world(local).normalize());
+        let cos = local.z.abs();
+        let spread = view.pixel_side * cos * cos.sqrt();
+        let ray = Ray::new(view.position + view.frame.to_world(origin), view.frame.to_world(local));
         CameraSample { ray, weight: 1.0, spread, width: 0.0 }
     }
 
@@ -289,9 +293,11 @@ impl View {
         if !(degrees > 0.0 && degrees < 180.0) {
             return Err(CameraError::BadFov);
         }
-        let half = fov.half_size(resolution);
         let frame = Frame { x: right, y: back.cross(right), z: back };
-        Ok(Self { position, frame, resolution, fov, half })
+        let (half, pixel, pixel_side) = (Vec2::ZERO, Vec2::ZERO, 0.0);
+        let mut view = Self { position, frame, resolution, fov, half, pixel, pixel_side };
+        view.fit(resolution);
+        Ok(view)
     }
 
     fn size(&self) -> Vec2 {
@@ -300,14 +306,22 @@ impl View {
 
     /// A pixel's area on the plane at distance 1.
     fn pixel_area(&self) -> f32 {
-        let pixel = 2.0 * self.half / self.size();
-        pixel.x * pixel.y
+        self.pixel.x * self.pixel.y
+    }
+
+    /// Fills the field of view with so many pixels.
+    fn fit(&mut self, resolution: [u32; 2]) {
+        self.resolution = resolution;
+        self.half = self.fov.half_size(resolution);
+        self.pixel = 2.0 * self.half / self.size();
+        self.pixel_side = self.pixel_area().sqrt();
     }
 
     /// The point on the plane at distance 1, local.
+    #[inline]
     fn at_one(&self, film_position: Vec2) -> Vec3 {
-        let s = 2.0 * film_position / self.size() - Vec2::ONE;
-        Vec3::new(s.x * self.half.x, -s.y * self.half.y, -1.0)
+        let s = film_position * self.pixel - self.half;
+        Vec3::new(s.x, -s.y, -1.0)
     }
 
     /// The inverse of [`Self::at_one`], inside the picture.

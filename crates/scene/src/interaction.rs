@@ -7,8 +7,8 @@ use crate::MaterialId;
 pub struct SurfaceInteraction {
     /// The point.
     pub p: Vec3,
-    /// Half-size of a box about `p` that holds the true point.
-    pub p_error: Vec3,
+    /// Half-size of a cube about `p` that holds the true point.
+    pub p_error: f32,
     /// Geometric normal, unit, outward as the shape was authored (its front).
     pub ng: Vec3,
     /// Shading normal, unit, in the hemisphere of `ng`.
@@ -49,10 +49,10 @@ impl SurfaceInteraction {
         Ray::new(offset_ray_origin(self.p, self.p_error, self.ng, w), w)
     }
 
-    /// The segment to `target` (with its error box and normal; zero normal: a point in space). Its direction is
+    /// The segment to `target` (with its error cube and normal; zero normal: a point in space). Its direction is
     /// not of unit length: it ends at t = 1, just short of the target.
     #[inline]
-    pub fn spawn_ray_to(&self, target: Vec3, target_error: Vec3, target_n: Vec3) -> Ray {
+    pub fn spawn_ray_to(&self, target: Vec3, target_error: f32, target_n: Vec3) -> Ray {
         let origin = offset_ray_origin(self.p, self.p_error, self.ng, target - self.p);
         let end = offset_ray_origin(target, target_error, target_n, origin - target);
         Ray { origin, direction: end - origin, t_max: 1.0 - 4.0 * f32::EPSILON }

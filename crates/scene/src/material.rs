@@ -16,8 +16,12 @@ fn facing(frame: Frame, hit: &SurfaceInteraction, wo: Vec3) -> Frame {
     if cos * side > 0.0 || side == 0.0 {
         return frame;
     }
-    let ns = (frame.z + wo * (BENT_COSINE.copysign(side) - cos)).normalize();
-    Frame::from_zx(ns, frame.x)
+    tilted(frame, wo * (BENT_COSINE.copysign(side) - cos))
+}
+
+#[inline(never)]
+fn tilted(frame: Frame, by: Vec3) -> Frame {
+    Frame::from_zx((frame.z + by).normalize(), frame.x)
 }
 
 /// Index of a material in the scene.
@@ -241,11 +245,11 @@ impl Material {
         let kind = match self.constant {
             _ if !self.two_sided && wo.dot(hit.ng) < 0.0 => BsdfKind::Black,
             Some(kind) => kind,
-            None => self.bsdf_kind(Some(hit), eta, lookup),
+            None => self.bsdf_kind(Some(&{ *hit }), eta, lookup),
         };
         let frame = match self.normal_map {
             None => Frame::from_z(hit.ns),
-            Some((texture, strength)) => self.bent_frame(hit, texture, strength, lookup),
+            Some((texture, strength)) => self.bent_frame(&{ *hit }, texture, strength, lookup),
         };
         Bsdf::new(kind, facing(frame, hit, wo), hit.ng)
     }

@@ -56,6 +56,8 @@ impl Scene {
     /// The first surface that a ray meets.
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<SurfaceInteraction> {
+        // A copy, so that the caller's ray need not lie in memory.
+        let ray = &{ *ray };
         let hit = self.bvh.closest(ray)?;
         if hit.instance == NO_INSTANCE {
             return match &self.outer[hit.geom as usize] {
@@ -109,7 +111,8 @@ impl Scene {
     /// What the boundary at `hit` separates for a ray along `w` inside `media`; `None` where it is no dielectric.
     #[inline]
     pub fn boundary(&self, hit: &SurfaceInteraction, media: &MediumStack, w: Vec3) -> Option<Boundary> {
-        Some(media.boundary(self.medium(hit)?, w.dot(hit.ng) < 0.0))
+        let medium = self.medium(hit)?;
+        Some(MediumStack::boundary(&{ *media }, medium, w.dot(hit.ng) < 0.0))
     }
 
     /// Materials by id.

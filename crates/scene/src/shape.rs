@@ -45,21 +45,20 @@ impl Object {
     /// The surface at a hit of `ray`.
     #[inline]
     pub(crate) fn interaction(&self, ray: &Ray, hit: &accel::Hit) -> SurfaceInteraction {
-        let mut s = match &self.shape {
+        let s = match &self.shape {
             Shape::Mesh(mesh) => triangle(mesh, hit),
             Shape::Sphere { center, radius, flipped } => sphere(*center, *radius, *flipped, ray, hit),
             Shape::Disk { center, normal, radius } => disk(*center, *normal, *radius, ray, hit),
         };
-        s.material = self.material;
-        s.light = self.light;
-        s
+        SurfaceInteraction { material: self.material, light: self.light, ..s }
     }
 }
 
+#[inline]
 fn blank(hit: &accel::Hit) -> SurfaceInteraction {
     SurfaceInteraction {
         p: Vec3::ZERO,
-        p_error: Vec3::ZERO,
+        p_error: 0.0,
         ng: Vec3::Z,
         ns: Vec3::Z,
         dpdu: Vec3::ZERO,
@@ -93,9 +92,9 @@ fn triangle(mesh: &TriangleMesh, hit: &accel::Hit) -> SurfaceInteraction {
     // grows with the distance of its corners and mixes the axes: so the box is a cube, and never flat.
     let reach = (p0 - s.p).abs().max((p1 - s.p).abs()).max((p2 - s.p).abs()).max_element();
     let rounding = (q0.abs() + q1.abs() + q2.abs()).max_element();
-    s.p_error = Vec3::splat(rounding * gamma(7) + reach * gamma(REACH_ROUNDINGS));
+    s.p_error = rounding * gamma(7) + reach * gamma(REACH_ROUNDINGS);
     let area2 = cross.length();
-    s.ng = if area2 > 0.0 { cross / area2 } else { sliver_normal(p0, p1, p2) };
+    s.ng = if area2 > 0.0 { cross * (1.0 / area2) } else { sliver_normal(p0, p1, p2) };
     s.ns = s.ng;
     if !mesh.normals.is_empty() {
         let n = mesh.normals[i0] * b0 + mesh.normals[i1] * b1 + mesh.normals[i2] * b2;
@@ -106,16 +105,35 @@ fn triangle(mesh: &TriangleMesh, hit: &accel::Hit) -> SurfaceInteraction {
         }
     }
     if !mesh.uvs.is_empty() {
-        let (t0, t1, t2) = (mesh.uvs[i0], mesh.uvs[i1], mesh.uvs[i2]);
-        s.uv = t0 * b0 + t1 * b1 + t2 * b2;
-        let (d1, d2) = (t1 - t0, t2 - t0);
-        let det = d1.x * d2.y - d1.y * d2.x;
-        if det != 0.0 {
-            s.dpdu = (e1 * d2.y - e2 * d1.y) / det;
-            s.uv_per_length = (det.abs() / area2.max(f32::MIN_POSITIVE)).sqrt();
-        }
+        let t = TextureAt::of([i0, i1, i2].map(|i| mesh.uvs[i]), [b0, b1, b2], [e1, e2], area2);
+        (s.uv, s.dpdu, s.uv_per_length) = (t.uv, t.dpdu, t.uv_per_length);
     }
     s
+}
+
+/// Where a point of a triangle lies on a texture: the fields of [`SurfaceInteraction`] of these names.
+struct TextureAt {
+    uv: Vec2,
+    dpdu: Vec3,
+    uv_per_length: f32,
+}
+
+impl TextureAt {
+    /// From the corners' coordinates, the point's barycentric ones, two edges and twice the area.
+    #[inline(never)]
+    fn of([t0, t1, t2]: [Vec2; 3], [b0, b1, b2]: [f32; 3], [e1, e2]: [Vec3; 2], area2: f32) -> Self {
+        let uv = t0 * b0 + t1 * b1 + t2 * b2;
+        let (d1, d2) = (t1 - t0, t2 - t0);
+        let det = d1.x * d2.y - d1.y * d2.x;
+        if det == 0.0 {
+            return Self { uv, dpdu: Vec3::ZERO, uv_per_length: 0.0 };
+        }
+        Self {
+            uv,
+            dpdu: (e1 * d2.y - e2 * d1.y) / det,
+            uv_per_length: (det.abs() / area2.max(f32::MIN_POSITIVE)).sqrt(),
+        }
+    }
 }
 
 /// The normal of a triangle whose cross product underflows, in f64; z where it has no area at all.
@@ -132,7 +150,7 @@ fn sphere(center: Vec3, radius: f32, flipped: bool, ray: &Ray, hit: &accel::Hit)
     let q = n * radius;
     s.p = center + q;
     // Normalising and scaling: five rounded operations on q; the sum rounds once more. A cube, as for triangles.
-    s.p_error = Vec3::splat(radius * gamma(5) + s.p.abs().max_element() * gamma(2));
+    s.p_error = radius * gamma(5) + s.p.abs().max_element() * gamma(2);
     s.ng = if flipped { -n } else { n };
     s.ns = s.ng;
     s.flipped = flipped;
@@ -148,7 +166,7 @@ fn disk(center: Vec3, normal: Vec3, radius: f32, ray: &Ray, hit: &accel::Hit) ->
     let mut s = blank(hit);
     let p = ray.at(hit.t);
     s.p = p - normal * (p - center).dot(normal);
-    s.p_error = Vec3::splat((s.p.abs() + center.abs()).max_element() * gamma(6) + radius * gamma(2));
+    s.p_error = (s.p.abs() + center.abs()).max_element() * gamma(6) + radius * gamma(2);
     s.ng = normal;
     s.ns = normal;
     let frame = math::Frame::from_z(normal);
@@ -170,7 +188,9 @@ pub(crate) fn to_world(mut s: SurfaceInteraction, m: &Transform) -> SurfaceInter
     let scale = matrix.determinant().abs().cbrt();
     // Pharr, Jakob & Humphreys 2023, eq. 6.30: the error of a transformed point that was not exact.
     let translation = Vec3::from(m.matrix().translation).abs();
-    s.p_error = abs(s.p_error) * (1.0 + gamma(3)) + (abs(s.p.abs()) + translation) * gamma(3);
+    let box_error =
+        abs(Vec3::splat(s.p_error)) * (1.0 + gamma(3)) + (abs(s.p.abs()) + translation) * gamma(3);
+    s.p_error = box_error.max_element();
     s.p = m.point(s.p);
     s.ng = m.normal(s.ng).normalize();
     s.ns = m.normal(s.ns).normalize();

@@ -1,10 +1,11 @@
 use bsdf::TransportMode;
 use color::Lanes;
+use math::Vec3;
 use sampling::Sampler;
 use scene::light::LightHit;
 use scene::{LightId, Scene};
 
-use crate::{Vertex, Walk};
+use crate::{Scattered, Vertex, Walk};
 
 /// Power heuristic with exponent 2 (Veach 1997, eq. 9.13) for a sample of density `own` against one other
 /// technique of density `other`.
@@ -76,27 +77,47 @@ pub struct Emission {
 /// The light that the surface at `vertex` is, seen from where the walk came.
 #[inline]
 pub fn emission_at(walk: &Walk<'_>, vertex: &Vertex) -> Option<Emission> {
-    let (light, radiance) = vertex.emitted(walk.scene())?;
+    let light = vertex.hit.light?;
     let hit = LightHit { p: vertex.hit.p, ng: vertex.hit.authored_ng(), prim: vertex.hit.prim };
-    Some(Emission { light, radiance, weight: weight_against_direct(walk, light, Some(hit)) })
+    emission_of(light, hit, walk.scene(), walk.last().copied(), vertex.wo)
+}
+
+#[inline(never)]
+fn emission_of(
+    light: LightId,
+    hit: LightHit,
+    scene: &Scene,
+    last: Option<Scattered>,
+    wo: Vec3,
+) -> Option<Emission> {
+    let radiance = scene.light(light).emitted(hit.ng, wo);
+    let weight = weight_against_direct(scene, last, light, -wo, Some(hit));
+    (!radiance.is_zero()).then_some(Emission { light, radiance, weight })
 }
 
 /// The lights at infinity that a walk sees when it leaves the scene.
-pub fn emission_escaped<'w>(walk: &'w Walk<'_>) -> impl Iterator<Item = Emission> + 'w {
-    walk.scene().environments().iter().filter_map(|&light| {
-        let radiance = walk.scene().light(light).escaped(walk.ray.direction);
+#[inline]
+pub fn emission_escaped<'s>(walk: &Walk<'s>) -> impl Iterator<Item = Emission> + use<'s> {
+    let (scene, last, direction) = (walk.scene(), walk.last().copied(), walk.ray.direction);
+    scene.environments().iter().filter_map(move |&light| {
+        let radiance = scene.light(light).escaped(direction);
         (!radiance.is_zero()).then(|| Emission {
             light,
             radiance,
-            weight: weight_against_direct(walk, light, None),
+            weight: weight_against_direct(scene, last, light, direction, None),
         })
     })
 }
 
-fn weight_against_direct(walk: &Walk<'_>, light: LightId, hit: Option<LightHit>) -> f32 {
-    let Some(last) = walk.last().filter(|last| last.lit) else { return 1.0 };
-    let scene = walk.scene();
+fn weight_against_direct(
+    scene: &Scene,
+    last: Option<Scattered>,
+    light: LightId,
+    direction: Vec3,
+    hit: Option<LightHit>,
+) -> f32 {
+    let Some(last) = last.filter(|last| last.lit) else { return 1.0 };
     let pmf = scene.direct_picker().pmf(light.0 as usize);
-    let other = pmf * scene.light(light).pdf_li_w(last.p, walk.ray.direction, hit);
+    let other = pmf * scene.light(light).pdf_li_w(last.p, direction, hit);
     power_heuristic(last.pdf_w, other)
 }

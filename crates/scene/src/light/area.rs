@@ -85,11 +85,12 @@ impl AreaEmission {
     }
 
     /// The receiver's view of a point drawn uniformly from `area`: density d²/(cos·A).
+    #[inline]
     pub(super) fn li_from_area(&self, area: f32, receiver: Vec3, origin: &Origin) -> Option<LiSample> {
         let to_light = origin.p - receiver;
         let d2 = to_light.length_squared();
         let distance = d2.sqrt();
-        let wi = to_light / distance;
+        let wi = to_light * (1.0 / distance);
         let (n, cos) = self.sides.facing(origin.ng, -wi)?;
         let pdf_w = d2 / (cos * area);
         (pdf_w.is_finite() && pdf_w > 0.0).then_some(LiSample {

@@ -56,7 +56,7 @@ impl SceneSphere {
 
     fn leave(&self, p: Vec3, w: Vec3, pdf_w: f32, radiance: Lanes, pdf_a: f32) -> Option<LeSample> {
         let ok = self.radius > 0.0 && pdf_a > 0.0 && pdf_a.is_finite();
-        ok.then_some(LeSample { p, p_error: Vec3::ZERO, n: w, w, radiance, cos: 1.0, pdf_a, pdf_w, prim: 0 })
+        ok.then_some(LeSample { p, p_error: 0.0, n: w, w, radiance, cos: 1.0, pdf_a, pdf_w, prim: 0 })
     }
 
     /// Density per area of [`Self::sample_le`] for a path through `p` along `w`.
@@ -107,7 +107,7 @@ impl DirectionalLight {
             pdf_w: 1.0,
             is_delta: true,
             p: p + wi * (2.0 * self.scene.radius),
-            p_error: Vec3::ZERO,
+            p_error: 0.0,
             n: Vec3::ZERO,
         })
     }

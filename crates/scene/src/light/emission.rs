@@ -9,7 +9,7 @@ use super::{AreaEmission, SpotLight};
 /// A point of a light.
 pub(super) struct Origin {
     pub p: Vec3,
-    pub p_error: Vec3,
+    pub p_error: f32,
     /// Unit normal of the front side; zero for point-like lights.
     pub ng: Vec3,
     /// Density per area; 1 for point-like lights.
@@ -19,13 +19,13 @@ pub(super) struct Origin {
 
 impl Origin {
     pub fn at_point(p: Vec3) -> Self {
-        Self { p, p_error: Vec3::ZERO, ng: Vec3::ZERO, pdf_a: 1.0, prim: 0 }
+        Self { p, p_error: 0.0, ng: Vec3::ZERO, pdf_a: 1.0, prim: 0 }
     }
 }
 
 /// Error of a point that was computed as centre + offset with a few roundings: a cube, as for the points of shapes.
-pub(super) fn error_about(center: Vec3, reach: Vec3) -> Vec3 {
-    Vec3::splat(gamma(8) * (center.abs() + reach.abs()).max_element())
+pub(super) fn error_about(center: Vec3, reach: Vec3) -> f32 {
+    gamma(8) * (center.abs() + reach.abs()).max_element()
 }
 
 /// How light leaves one point.

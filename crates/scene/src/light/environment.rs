@@ -42,7 +42,7 @@ impl EnvironmentLight {
             pdf_w: warp::SPHERE_PDF_W,
             is_delta: false,
             p: p + wi * (2.0 * self.scene.radius),
-            p_error: Vec3::ZERO,
+            p_error: 0.0,
             n: Vec3::ZERO,
         })
     }

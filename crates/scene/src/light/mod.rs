@@ -67,8 +67,8 @@ pub struct LiSample {
     pub is_delta: bool,
     /// Point on the light; for lights at infinity a point along `wi` outside the scene.
     pub p: Vec3,
-    /// Half-size of the box about `p` that holds the true point.
-    pub p_error: Vec3,
+    /// Half-size of the cube about `p` that holds the true point.
+    pub p_error: f32,
     /// Unit normal of the light at `p` on the side of the receiver; zero where there is none.
     pub n: Vec3,
 }
@@ -78,8 +78,8 @@ pub struct LiSample {
 pub struct LeSample {
     /// Start; for lights at infinity on a disc outside the scene.
     pub p: Vec3,
-    /// Half-size of the box about `p` that holds the true point.
-    pub p_error: Vec3,
+    /// Half-size of the cube about `p` that holds the true point.
+    pub p_error: f32,
     /// Unit normal on the side of `w`; zero for point-like lights; `w` for lights at infinity.
     pub n: Vec3,
     /// Unit direction of flight.
@@ -112,7 +112,17 @@ impl Light {
     ///
     /// `_n` is the receiver's normal or zero; no variant shapes its density by it, so that [`Self::pdf_li_w`] needs
     /// none. `u_pick` chooses among triangles; `u` the point or direction.
+    #[inline]
     pub fn sample_li(&self, p: Vec3, _n: Vec3, u_pick: f32, u: [f32; 2]) -> Option<LiSample> {
+        match self {
+            Self::Triangles(l) => l.sample_li(p, u_pick, u),
+            _ => self.sample_li_elsewhere(p, u),
+        }
+    }
+
+    /// [`Self::sample_li`] for all but triangles: out of the way of loops over paths.
+    #[inline(never)]
+    fn sample_li_elsewhere(&self, p: Vec3, u: [f32; 2]) -> Option<LiSample> {
         match self {
             Self::Point(l) => l.sample_li(p),
             Self::Spot(l) => l.sample_li(p),
@@ -120,7 +130,7 @@ impl Light {
             Self::Environment(l) => l.sample_li(p, u),
             Self::Sphere(l) => l.sample_li(p, u),
             Self::Disk(l) => l.sample_li(p, u),
-            Self::Triangles(l) => l.sample_li(p, u_pick, u),
+            Self::Triangles(l) => l.sample_li(p, 0.0, u),
         }
     }
 

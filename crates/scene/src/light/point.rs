@@ -50,7 +50,7 @@ pub(super) fn toward_point(p: Vec3, position: Vec3, intensity: impl Fn(Vec3) -> 
         pdf_w: 1.0,
         is_delta: true,
         p: position,
-        p_error: Vec3::ZERO,
+        p_error: 0.0,
         n: Vec3::ZERO,
     })
 }

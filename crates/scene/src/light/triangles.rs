@@ -74,10 +74,11 @@ impl TriangleLight {
         let parts = [t[0] * b0, t[1] * b1, t[2] * (1.0 - b0 - b1)];
         let (ng, reach) = self.normals[index];
         let rounding = (parts[0].abs() + parts[1].abs() + parts[2].abs()).max_element();
-        let p_error = Vec3::splat(rounding * gamma(6) + reach * gamma(3));
+        let p_error = rounding * gamma(6) + reach * gamma(3);
         Origin { p: parts[0] + parts[1] + parts[2], p_error, ng, pdf_a: 1.0 / self.area, prim: index as u32 }
     }
 
+    #[inline]
     pub(super) fn sample_li(&self, p: Vec3, u_pick: f32, u: [f32; 2]) -> Option<LiSample> {
         self.surface.li_from_area(self.area, p, &self.origin(u_pick, u))
     }
