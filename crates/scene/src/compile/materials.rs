@@ -44,7 +44,16 @@ impl<'d> Library<'d> {
     /// The id of a material, or of black where it is not known (which is reported).
     pub fn resolve(&mut self, reference: &'d MaterialRef) -> MaterialId {
         match reference {
-            MaterialRef::Inline(material) => self.add(material),
+            // Equal ones are one: the boundaries of a solid must agree on what they bound.
+            MaterialRef::Inline(material) => {
+                let id = self.add(material);
+                let added = self.materials[id.0 as usize];
+                let first = self.materials.iter().position(|m| *m == added).unwrap_or(id.0 as usize);
+                if first < id.0 as usize {
+                    self.materials.pop();
+                }
+                MaterialId(first as u32)
+            }
             MaterialRef::Named(name) => match self.named.get(name.as_str()) {
                 Some(&id) => id,
                 None => {
