@@ -250,7 +250,7 @@ fn bounce_rays(mesh: &Mesh, bvh: &Bvh, camera: &[Ray]) -> Vec<Ray> {
             let p = a * (1.0 - hit.u - hit.v) + b * hit.u + c * hit.v;
             let mut u = Sampler::new(2, depth, Domain::Other, i as u64);
             let w = Frame::from_z(n).to_world(warp::cosine_hemisphere(u.next_2d()));
-            let error = (a.abs() + b.abs() + c.abs()) * math::gamma(7);
+            let error = (a.abs() + b.abs() + c.abs()).max_element() * math::gamma(7);
             Some(Ray::new(offset_ray_origin(p, error, n, w), w))
         };
         front = front.iter().enumerate().filter_map(bounce).collect();
