@@ -44,6 +44,14 @@ impl PixelSample {
         std::array::from_fn(|i| self.direct[i] + self.caustic[i] + self.indirect[i])
     }
 
+    /// Whether all values are such as a film holds, seen at a glance; else [`Self::clean`] decides.
+    #[inline]
+    fn is_ordinary(&self) -> bool {
+        let colours = [self.direct, self.caustic, self.indirect, self.albedo, self.normal];
+        let small = colours.as_flattened().iter().fold(true, |ok, v| ok & (v.abs() <= SMALL));
+        small & (self.weight.abs() <= SMALL) & (self.depth >= 0.0) & holds(self.photon_density)
+    }
+
     /// Sets to 0 every layer with a value that is no number a film can hold; the layers that were wrong.
     fn clean(&mut self) -> impl Iterator<Item = Layer> + use<> {
         let mut wrong = [None; 8];
@@ -121,6 +129,9 @@ impl PassFilm {
         }
         let (mut nonfinite, mut nonfinite_count) = (Vec::new(), 0);
         for (i, pixel) in pixels.iter_mut().enumerate() {
+            if pixel.is_ordinary() {
+                continue;
+            }
             for layer in pixel.clean() {
                 nonfinite_count += 1;
                 if nonfinite.len() < Self::NONFINITE_LISTED {

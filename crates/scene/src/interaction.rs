@@ -37,6 +37,27 @@ pub struct SurfaceInteraction {
 pub struct LightId(pub u32);
 
 impl SurfaceInteraction {
+    /// The same, copied number by number: the result of a function that is not inlined then joins that of one that is
+    /// in registers, where otherwise both would be built in memory and read back before they have arrived there.
+    #[inline(always)]
+    pub(crate) fn unpacked(&self) -> Self {
+        let copy = |v: Vec3| Vec3::new(v.x, v.y, v.z);
+        Self {
+            p: copy(self.p),
+            p_error: self.p_error,
+            ng: copy(self.ng),
+            ns: copy(self.ns),
+            dpdu: copy(self.dpdu),
+            uv: Vec2::new(self.uv.x, self.uv.y),
+            uv_per_length: self.uv_per_length,
+            t: self.t,
+            material: self.material,
+            light: self.light,
+            flipped: self.flipped,
+            prim: self.prim,
+        }
+    }
+
     /// The geometric normal as the light that this surface is knows it.
     #[inline]
     pub fn authored_ng(&self) -> Vec3 {

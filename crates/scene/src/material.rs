@@ -7,21 +7,16 @@ use crate::{Medium, SurfaceInteraction, Texture};
 /// Cosine to which a shading normal is bent back where it faces away from a viewer who sees the surface's other side.
 const BENT_COSINE: f32 = 0.01;
 
-/// The frame, unless `wo` lies between the shading and the geometric normal's horizons, as at the silhouette of a
-/// smooth mesh: then its normal is tilted toward `wo` until both agree on the side, where otherwise nothing would be
+/// The shading normal, unless `wo` lies between its horizon and the geometric normal's, as at the silhouette of a
+/// smooth mesh: then it is tilted toward `wo` until both agree on the side, where otherwise nothing would be
 /// scattered.
 #[inline]
-fn facing(frame: Frame, hit: &SurfaceInteraction, wo: Vec3) -> Frame {
-    let (cos, side) = (wo.dot(frame.z), wo.dot(hit.ng));
+fn facing(ns: Vec3, ng: Vec3, wo: Vec3) -> Vec3 {
+    let (cos, side) = (wo.dot(ns), wo.dot(ng));
     if cos * side > 0.0 || side == 0.0 {
-        return frame;
+        return ns;
     }
-    tilted(frame, wo * (BENT_COSINE.copysign(side) - cos))
-}
-
-#[inline(never)]
-fn tilted(frame: Frame, by: Vec3) -> Frame {
-    Frame::from_zx((frame.z + by).normalize(), frame.x)
+    (ns + wo * (BENT_COSINE.copysign(side) - cos)).normalize()
 }
 
 /// Index of a material in the scene.
@@ -247,21 +242,22 @@ impl Material {
             Some(kind) => kind,
             None => self.bsdf_kind(Some(&{ *hit }), eta, lookup),
         };
-        let frame = match self.normal_map {
-            None => Frame::from_z(hit.ns),
-            Some((texture, strength)) => self.bent_frame(&{ *hit }, texture, strength, lookup),
+        let ns = match self.normal_map {
+            None => hit.ns,
+            Some((texture, strength)) => self.bent_normal(&{ *hit }, texture, strength, lookup),
         };
-        Bsdf::new(kind, facing(frame, hit, wo), hit.ng)
+        // No kind is anisotropic: any frame about the normal will do.
+        Bsdf::new(kind, Frame::from_z(facing(ns, hit.ng, wo)), hit.ng)
     }
 
     #[inline(never)]
-    fn bent_frame(
+    fn bent_normal(
         &self,
         hit: &SurfaceInteraction,
         texture: u32,
         strength: f32,
         lookup: &Lookup<'_>,
-    ) -> Frame {
+    ) -> Vec3 {
         let base = Frame::from_zx(hit.ns, hit.dpdu);
         let local =
             lookup.textures[texture as usize].evaluate_normal(hit.uv, lookup.footprint * hit.uv_per_length);
@@ -272,6 +268,6 @@ impl Material {
         if c < 0.01 {
             ns = (ns + hit.ng * (0.01 - c)).normalize();
         }
-        Frame::from_zx(ns, hit.dpdu)
+        ns
     }
 }

@@ -65,7 +65,7 @@ impl Scene {
                 Outer::Instance { .. } => None,
             };
         }
-        self.intersect_instance(ray, &hit)
+        self.intersect_instance(ray, &hit).map(|s| s.unpacked())
     }
 
     #[inline(never)]

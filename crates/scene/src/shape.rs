@@ -47,8 +47,10 @@ impl Object {
     pub(crate) fn interaction(&self, ray: &Ray, hit: &accel::Hit) -> SurfaceInteraction {
         let s = match &self.shape {
             Shape::Mesh(mesh) => triangle(mesh, hit),
-            Shape::Sphere { center, radius, flipped } => sphere(*center, *radius, *flipped, ray, hit),
-            Shape::Disk { center, normal, radius } => disk(*center, *normal, *radius, ray, hit),
+            Shape::Sphere { center, radius, flipped } => {
+                sphere(*center, *radius, *flipped, ray, hit).unpacked()
+            }
+            Shape::Disk { center, normal, radius } => disk(*center, *normal, *radius, ray, hit).unpacked(),
         };
         SurfaceInteraction { material: self.material, light: self.light, ..s }
     }

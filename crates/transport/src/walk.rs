@@ -2,7 +2,7 @@ use bsdf::{Bsdf, DeltaLobe, Lobes, TransportMode};
 use color::Lanes;
 use math::{Ray, Vec3};
 use sampling::Sampler;
-use scene::{Boundary, LightId, MediumStack, Scene, SurfaceInteraction};
+use scene::{Boundary, MediumStack, Scene, SurfaceInteraction};
 
 /// Scattering events after which every walk may end.
 pub const ENDLESS_DEPTH: u32 = 64;
@@ -65,6 +65,7 @@ pub struct Scattered {
 
 impl<'s> Walk<'s> {
     /// A walk that starts at the camera (`Radiance`) or at a light (`Importance`).
+    #[inline]
     pub fn new(
         scene: &'s Scene,
         mode: TransportMode,
@@ -87,6 +88,7 @@ impl<'s> Walk<'s> {
     }
 
     /// Starts the footprint: its width at the start and growth per unit of length.
+    #[inline]
     pub fn with_footprint(mut self, width: f32, spread: f32) -> Self {
         self.footprint = width;
         self.spread = spread;
@@ -122,9 +124,11 @@ impl<'s> Walk<'s> {
     }
 
     /// Moves the medium stack through the boundary at `hit`.
+    #[inline]
     fn cross(&mut self, hit: &SurfaceInteraction) {
         if let Some(medium) = self.scene.medium(hit) {
-            self.media = self.media.crossed(medium, self.ray.direction.dot(hit.ng) < 0.0);
+            let media = self.media;
+            self.media = media.crossed(medium, self.ray.direction.dot(hit.ng) < 0.0);
         }
     }
 
@@ -135,6 +139,7 @@ impl<'s> Walk<'s> {
     }
 
     /// The same from some lobes only.
+    #[inline]
     pub fn scatter_lobes(
         &mut self,
         vertex: &Vertex,
@@ -214,21 +219,14 @@ impl<'s> Walk<'s> {
     }
 
     /// The scene walked through.
+    #[inline]
     pub fn scene(&self) -> &'s Scene {
         self.scene
     }
 
     /// The last scattering event; `None` before the first.
+    #[inline]
     pub fn last(&self) -> Option<&Scattered> {
         self.last.as_ref()
-    }
-}
-
-impl Vertex {
-    /// Radiance that the surface itself sends toward `wo`.
-    pub fn emitted(&self, scene: &Scene) -> Option<(LightId, Lanes)> {
-        let id = self.hit.light?;
-        let radiance = scene.light(id).emitted(self.hit.authored_ng(), self.wo);
-        (!radiance.is_zero()).then_some((id, radiance))
     }
 }
