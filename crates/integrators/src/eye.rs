@@ -9,7 +9,7 @@
 use bsdf::{BsdfKind, Lobes, TransportMode};
 use color::Lanes;
 use film::PixelSample;
-use math::FRAC_1_PI;
+use math::{FRAC_1_PI, ONE_MINUS_EPSILON};
 use photons::Scratch;
 use sampling::Sampler;
 use scene::Scene;
@@ -42,6 +42,8 @@ pub(crate) struct Eye<'a> {
     pub maps: &'a Maps,
 }
 
+/// Greatest photon density that a film is given: in small scenes the square of a length is smaller yet.
+const DENSEST: f32 = 8e9;
 /// Gather rays for each shadow ray at the first D surface.
 const GATHER_PER_SHADOW: u32 = 4;
 
@@ -144,7 +146,7 @@ impl Eye<'_> {
         if let (0, Some(global)) = (self.settings.final_gather, &self.maps.global) {
             let found = merge(&global.map, vertex, &global_lookup(self.settings, global), scratch);
             gathered.indirect += beta * found.radiance;
-            sample.photon_density += found.density();
+            sample.photon_density = (sample.photon_density + found.density()).min(DENSEST);
         }
         add(sample, LightLayer::Direct, gathered.direct);
         add(sample, LightLayer::Indirect, gathered.indirect);
@@ -156,7 +158,14 @@ impl Eye<'_> {
         let shift = sampler.next_2d();
         let mut sum = Lanes::ZERO;
         for i in 0..n {
-            sum += direct_with(self.scene, vertex, sampler.next_1d(), shifted_hammersley(i, n, shift));
+            // Each light gets its share of the rays.
+            let u_light = (i as f32 + sampler.next_1d()) / n as f32;
+            sum += direct_with(
+                self.scene,
+                vertex,
+                u_light.min(ONE_MINUS_EPSILON),
+                shifted_hammersley(i, n, shift),
+            );
         }
         sum / n as f32
     }
@@ -164,7 +173,7 @@ impl Eye<'_> {
     fn caustic(&self, vertex: &Vertex, scratch: &mut Scratch, sample: &mut PixelSample) -> Lanes {
         let Some(stored) = &self.maps.caustic else { return Lanes::ZERO };
         let found = merge(&stored.map, vertex, &self.caustic_lookup(stored, vertex), scratch);
-        sample.photon_density += found.density();
+        sample.photon_density = (sample.photon_density + found.density()).min(DENSEST);
         found.radiance
     }
 

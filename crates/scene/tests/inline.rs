@@ -15,10 +15,13 @@ fn ball(radius: f32, ior: f32, flip_normals: bool) -> Object {
 /// inside out, bounds the same glass.
 #[test]
 fn equal_inline_dielectrics_are_one_medium() {
-    let mut desc = SceneDesc::default();
-    desc.camera = Some(Camera { position: [0.0, 0.0, 0.1], ..Camera::default() }.into());
-    desc.objects =
-        vec![ball(1.0, 1.5, false).into(), ball(0.8, 1.5, true).into(), ball(0.3, 1.33, false).into()];
+    let desc = SceneDesc {
+        camera: Some(Camera { position: [0.0, 0.0, 0.1], ..Camera::default() }.into()),
+        objects: [ball(1.0, 1.5, false), ball(0.8, 1.5, true), ball(0.3, 1.33, false)]
+            .map(Into::into)
+            .to_vec(),
+        ..SceneDesc::default()
+    };
     let (scene, _) = scene::compile(&desc).unwrap();
     assert_eq!(scene.materials().len(), 2);
     let ior_at = |p: Vec3| {
