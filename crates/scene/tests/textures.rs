@@ -9,8 +9,8 @@ use scenefile::desc::{Camera, ColorDesc, Material, Object, Shape, Texture};
 
 /// The albedo that a ray from above meets at (x, z) on the unit square.
 fn albedo(desc: &SceneDesc, x: f32, z: f32) -> [f32; 3] {
-    let (scene, _) = scene::compile(desc).unwrap();
-    let hit = scene.intersect(&Ray::new(Vec3::new(x, 1.0, z), -Vec3::Y)).unwrap();
+    let (scene, _) = scene::compile(desc).expect("a sound scene");
+    let hit = scene.intersect(&Ray::new(Vec3::new(x, 1.0, z), -Vec3::Y)).expect("the square lies below");
     match *scene.bsdf(&hit, Vec3::Y, 1.0, 0.0).kind() {
         BsdfKind::Diffuse { albedo } => albedo.to_rgb(),
         _ => panic!("not diffuse"),
