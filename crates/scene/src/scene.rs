@@ -59,33 +59,16 @@ impl Scene {
         // A copy, so that the caller's ray need not lie in memory.
         let ray = &{ *ray };
         let hit = self.bvh.closest(ray)?;
-        if hit.instance == NO_INSTANCE {
-            return match &self.outer[hit.geom as usize] {
-                Outer::Object(object) => Some(object.interaction(ray, &hit)),
-                Outer::Instance { .. } => None,
-            };
-        }
-        self.intersect_instance(ray, &hit).map(|s| s.unpacked())
-    }
-
-    #[inline(never)]
-    fn intersect_instance(&self, ray: &Ray, hit: &accel::Hit) -> Option<SurfaceInteraction> {
-        let Outer::Instance { group, render_from_object, material } = &self.outer[hit.instance as usize]
-        else {
-            return None;
+        let id = if hit.instance == NO_INSTANCE { hit.geom } else { hit.instance };
+        // One result from two places, not two: it need then not lie in memory.
+        let surface = match &self.outer[id as usize] {
+            Outer::Object(object) => object.interaction(ray, &hit),
+            Outer::Instance { group, render_from_object, material } => {
+                let object = &self.groups[*group as usize].objects[hit.geom as usize];
+                placed(object, ray, &{ hit }, render_from_object, *material).unpacked()
+            }
         };
-        let inverse = render_from_object.inverse();
-        let local = Ray {
-            origin: inverse.point(ray.origin),
-            direction: inverse.vector(ray.direction),
-            t_max: ray.t_max,
-        };
-        let object = &self.groups[*group as usize].objects[hit.geom as usize];
-        let mut s = to_world(object.interaction(&local, hit), render_from_object);
-        if let Some(material) = material {
-            s.material = *material;
-        }
-        Some(s)
+        Some(surface)
     }
 
     /// Whether anything lies on the ray.
@@ -212,6 +195,22 @@ impl Scene {
             texture_bytes: self.textures.iter().map(texture_bytes).sum(),
         }
     }
+}
+
+/// The surface of an object of a group at a hit of a ray of the world.
+#[inline(never)]
+fn placed(
+    object: &Object,
+    ray: &Ray,
+    hit: &accel::Hit,
+    render_from_object: &Transform,
+    material: Option<MaterialId>,
+) -> SurfaceInteraction {
+    let inverse = render_from_object.inverse();
+    let local =
+        Ray { origin: inverse.point(ray.origin), direction: inverse.vector(ray.direction), t_max: ray.t_max };
+    let surface = to_world(object.interaction(&local, hit), render_from_object);
+    SurfaceInteraction { material: material.unwrap_or(surface.material), ..surface }
 }
 
 fn texture_bytes(texture: &Texture) -> u64 {

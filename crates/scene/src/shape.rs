@@ -45,32 +45,34 @@ impl Object {
     /// The surface at a hit of `ray`.
     #[inline]
     pub(crate) fn interaction(&self, ray: &Ray, hit: &accel::Hit) -> SurfaceInteraction {
-        let s = match &self.shape {
-            Shape::Mesh(mesh) => triangle(mesh, hit),
+        match &self.shape {
+            Shape::Mesh(mesh) => triangle(mesh, self.blank(hit), hit),
             Shape::Sphere { center, radius, flipped } => {
-                sphere(*center, *radius, *flipped, ray, hit).unpacked()
+                sphere(*center, *radius, *flipped, ray, self.blank(hit)).unpacked()
             }
-            Shape::Disk { center, normal, radius } => disk(*center, *normal, *radius, ray, hit).unpacked(),
-        };
-        SurfaceInteraction { material: self.material, light: self.light, ..s }
+            Shape::Disk { center, normal, radius } => {
+                disk(*center, *normal, *radius, ray, self.blank(hit)).unpacked()
+            }
+        }
     }
-}
 
-#[inline]
-fn blank(hit: &accel::Hit) -> SurfaceInteraction {
-    SurfaceInteraction {
-        p: Vec3::ZERO,
-        p_error: 0.0,
-        ng: Vec3::Z,
-        ns: Vec3::Z,
-        dpdu: Vec3::ZERO,
-        uv: Vec2::new(hit.u, hit.v),
-        uv_per_length: 0.0,
-        t: hit.t,
-        material: MaterialId(0),
-        light: None,
-        flipped: false,
-        prim: hit.prim,
+    /// What all shapes give alike.
+    #[inline]
+    fn blank(&self, hit: &accel::Hit) -> SurfaceInteraction {
+        SurfaceInteraction {
+            p: Vec3::ZERO,
+            p_error: 0.0,
+            ng: Vec3::Z,
+            ns: Vec3::Z,
+            dpdu: Vec3::ZERO,
+            uv: Vec2::new(hit.u, hit.v),
+            uv_per_length: 0.0,
+            t: hit.t,
+            material: self.material,
+            light: self.light,
+            flipped: false,
+            prim: hit.prim,
+        }
     }
 }
 
@@ -79,7 +81,7 @@ fn blank(hit: &accel::Hit) -> SurfaceInteraction {
 const REACH_ROUNDINGS: u32 = 3;
 
 #[inline]
-fn triangle(mesh: &TriangleMesh, hit: &accel::Hit) -> SurfaceInteraction {
+fn triangle(mesh: &TriangleMesh, mut s: SurfaceInteraction, hit: &accel::Hit) -> SurfaceInteraction {
     let [i0, i1, i2] = mesh.indices[hit.prim as usize].map(|i| i as usize);
     let (p0, p1, p2) = (mesh.positions[i0], mesh.positions[i1], mesh.positions[i2]);
     let (b1, b2) = (hit.u, hit.v);
@@ -87,7 +89,6 @@ fn triangle(mesh: &TriangleMesh, hit: &accel::Hit) -> SurfaceInteraction {
     let (q0, q1, q2) = (p0 * b0, p1 * b1, p2 * b2);
     let (e1, e2) = (p1 - p0, p2 - p0);
     let cross = e1.cross(e2);
-    let mut s = blank(hit);
     s.p = q0 + q1 + q2;
     // Barycentric interpolation rounds seven times (Pharr, Jakob & Humphreys 2023, §6.8.5). A ray that starts here
     // must besides be farther off the plane than the error of the `t` with which the triangle itself is met, which
@@ -108,7 +109,8 @@ fn triangle(mesh: &TriangleMesh, hit: &accel::Hit) -> SurfaceInteraction {
     }
     if !mesh.uvs.is_empty() {
         let t = TextureAt::of([i0, i1, i2].map(|i| mesh.uvs[i]), [b0, b1, b2], [e1, e2], area2);
-        (s.uv, s.dpdu, s.uv_per_length) = (t.uv, t.dpdu, t.uv_per_length);
+        (s.uv, s.uv_per_length) = (Vec2::new(t.uv.x, t.uv.y), t.uv_per_length);
+        s.dpdu = Vec3::new(t.dpdu.x, t.dpdu.y, t.dpdu.z);
     }
     s
 }
@@ -146,9 +148,14 @@ fn sliver_normal(p0: Vec3, p1: Vec3, p2: Vec3) -> Vec3 {
 }
 
 #[inline(never)]
-fn sphere(center: Vec3, radius: f32, flipped: bool, ray: &Ray, hit: &accel::Hit) -> SurfaceInteraction {
-    let mut s = blank(hit);
-    let n = (ray.at(hit.t) - center).normalize();
+fn sphere(
+    center: Vec3,
+    radius: f32,
+    flipped: bool,
+    ray: &Ray,
+    mut s: SurfaceInteraction,
+) -> SurfaceInteraction {
+    let n = (ray.at(s.t) - center).normalize();
     let q = n * radius;
     s.p = center + q;
     // Normalising and scaling: five rounded operations on q; the sum rounds once more. A cube, as for triangles.
@@ -164,9 +171,8 @@ fn sphere(center: Vec3, radius: f32, flipped: bool, ray: &Ray, hit: &accel::Hit)
 }
 
 #[inline(never)]
-fn disk(center: Vec3, normal: Vec3, radius: f32, ray: &Ray, hit: &accel::Hit) -> SurfaceInteraction {
-    let mut s = blank(hit);
-    let p = ray.at(hit.t);
+fn disk(center: Vec3, normal: Vec3, radius: f32, ray: &Ray, mut s: SurfaceInteraction) -> SurfaceInteraction {
+    let p = ray.at(s.t);
     s.p = p - normal * (p - center).dot(normal);
     s.p_error = (s.p.abs() + center.abs()).max_element() * gamma(6) + radius * gamma(2);
     s.ng = normal;
