@@ -16,8 +16,6 @@ const USAGE: &str = "usage: cargo xtask bench [--quick] [--only PREFIX] [--json 
 type Group = (&'static [&'static str], fn(&mut Rows, bool) -> Result<(), String>);
 
 const GROUPS: &[Group] = &[
-    // First: after Embree has run in it, two threads of this process were seen to share one processor.
-    (&["report.", "threads.path", "threads.photon_map"], report::run),
     (&["search.", "threads.search"], |rows, quick| figureless(rows, |results| search::run(results, quick))),
     (&["rays."], |rows, quick| {
         figureless(rows, |results| {
@@ -26,6 +24,7 @@ const GROUPS: &[Group] = &[
         })
     }),
     (&["paths."], paths::run),
+    (&["report.", "threads.path", "threads.photon_map"], report::run),
 ];
 
 /// Measurements whose figures stand in what they print.
