@@ -126,7 +126,7 @@ pub struct CompareArgs {
     #[arg(long, value_name = "MASK")]
     pub mask: Option<PathBuf>,
 
-    /// Write a picture of the difference; for one IMG only.
+    /// Write a picture of the difference; of the last IMG.
     #[arg(long, value_name = "OUT.png")]
     pub diff: Option<PathBuf>,
 
