@@ -31,9 +31,9 @@ pub(crate) fn irradiance_samples(scene: &Scene, stored: &StoredMap, lookup: &Loo
                     radius: lookup.max_radius,
                     kernel: lookup.kernel,
                 };
-                let (e, radius) = irradiance(map, &query, lookup.knn, &mut scratch);
+                let (e, found) = irradiance(map, &query, lookup.knn, &mut scratch);
                 let turn = streams.path(i as u64).next_1d();
-                sample.power = e / covered(scene, &sample, radius, lookup.kernel, turn);
+                sample.power = e / covered(scene, &sample, found.radius, lookup.kernel, turn);
                 sample.direction = sample.normal;
                 sample
             })

@@ -12,6 +12,8 @@ use crate::{Integrator, PhotonMapSettings, Settings};
 
 /// Photon paths of one task; fixed, so that sums have one shape on any number of threads.
 const CHUNK: usize = 4096;
+/// Greatest radius of lookups in the global map, in typical radii, unless it is set.
+const GLOBAL_RADII: f32 = 4.0;
 /// Photons at which the typical lookup radius of a map is measured.
 const PROBES: usize = 256;
 
@@ -49,7 +51,7 @@ pub(crate) struct StoredMap {
     pub map: PhotonMap,
     /// Median distance to the k-th neighbour among probes.
     pub typical_radius: f32,
-    /// Greatest radius of lookups; `None`: by footprint.
+    /// Greatest radius of lookups as set; `None`: automatic.
     pub max_radius: Option<f32>,
 }
 
@@ -151,8 +153,8 @@ impl Integrator for PhotonMapper {
         let s = &self.settings.photon_map;
         let reach = scene.bounds().size().length();
         let TracedPhotons { global, caustic, .. } = photons;
-        let global = store(global, s.knn, reach, |typical| Some(s.radius.unwrap_or(4.0 * typical)));
-        let caustic = store(caustic, s.caustic_knn, reach, |_| s.caustic_radius);
+        let global = store(global, s.knn, reach, s.radius);
+        let caustic = store(caustic, s.caustic_knn, reach, s.caustic_radius);
         let irradiance = global
             .as_ref()
             .filter(|_| s.final_gather > 0)
@@ -174,22 +176,17 @@ impl Integrator for PhotonMapper {
 
 /// How the global map is looked up.
 pub(crate) fn global_lookup(s: &PhotonMapSettings, stored: &StoredMap) -> Lookup {
-    let max_radius = stored.max_radius.unwrap_or(4.0 * stored.typical_radius);
+    let max_radius = stored.max_radius.unwrap_or(GLOBAL_RADII * stored.typical_radius);
     Lookup { knn: s.knn as usize, max_radius, kernel: s.kernel }
 }
 
-fn store(
-    photons: Vec<Photon>,
-    knn: u32,
-    reach: f32,
-    max_radius: impl Fn(f32) -> Option<f32>,
-) -> Option<StoredMap> {
+fn store(photons: Vec<Photon>, knn: u32, reach: f32, max_radius: Option<f32>) -> Option<StoredMap> {
     if photons.is_empty() {
         return None;
     }
     let map = PhotonMap::build(photons);
     let typical_radius = typical_radius(&map, knn as usize, reach);
-    Some(StoredMap { max_radius: max_radius(typical_radius), map, typical_radius })
+    Some(StoredMap { map, typical_radius, max_radius })
 }
 
 /// Median over probes, spread evenly over the tree, of the distance to the k-th neighbour.

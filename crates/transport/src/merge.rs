@@ -1,7 +1,7 @@
 use bsdf::{BsdfKind, TransportMode};
 use color::Lanes;
 use math::FRAC_1_PI;
-use photons::{Kernel, PhotonMap, Query, Scratch};
+use photons::{Kernel, Neighbourhood, PhotonMap, Query, Scratch};
 
 use crate::Vertex;
 
@@ -54,14 +54,8 @@ pub fn merge(map: &PhotonMap, vertex: &Vertex, lookup: &Lookup, scratch: &mut Sc
         && ns == ng
     {
         // f is the same for every photon above the surface, which they all are.
-        let mut irradiance = Lanes::ZERO;
-        let found =
-            map.gather_knn(&query, lookup.knn, scratch, |photon, weight| irradiance += photon.power * weight);
-        return Merged {
-            radiance: albedo * irradiance * FRAC_1_PI,
-            radius: found.radius,
-            count: found.count,
-        };
+        let (e, found) = irradiance(map, &query, lookup.knn, scratch);
+        return Merged { radiance: albedo * e * FRAC_1_PI, radius: found.radius, count: found.count };
     }
     let mut radiance = Lanes::ZERO;
     let found = map.gather_knn(&query, lookup.knn, scratch, |photon, weight| {
@@ -78,11 +72,16 @@ fn bend(cos_shading: f32, cos_geometric: f32) -> f32 {
     if cos_geometric == 0.0 { 0.0 } else { (cos_shading / cos_geometric).abs() }
 }
 
-/// Irradiance Σ Φ·k(d/r)/r² at a point of a surface, on the side of `normal`.
-pub fn irradiance(map: &PhotonMap, query: &Query, knn: usize, scratch: &mut Scratch) -> (Lanes, f32) {
+/// Irradiance Σ Φ·k(d/r)/r² at a point of a surface, on the side of the query's normal, and what was looked at.
+pub fn irradiance(
+    map: &PhotonMap,
+    query: &Query,
+    knn: usize,
+    scratch: &mut Scratch,
+) -> (Lanes, Neighbourhood) {
     let mut sum = Lanes::ZERO;
     let found = map.gather_knn(query, knn, scratch, |photon, weight| sum += photon.power * weight);
-    (sum, found.radius)
+    (sum, found)
 }
 
 /// The irradiance stored at the nearest sample of a map of irradiance samples (photons whose power is irradiance);
