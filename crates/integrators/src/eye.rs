@@ -95,11 +95,13 @@ impl Eye<'_> {
             if walk.depth >= self.max_depth {
                 return;
             }
+            let mut lobes = Lobes::ALL;
             if vertex.bsdf.has_diffuse() {
                 self.shade(&walk, &vertex, sampler, scratch, sample);
                 if !vertex.bsdf.lobes().contains(Lobes::SPECULAR) {
                     return;
                 }
+                lobes = Lobes::DELTA;
             } else if !vertex.bsdf.is_delta_only() {
                 let reflected = direct(self.scene, &vertex, sampler);
                 add(sample, LightLayer::Direct, walk.throughput * reflected);
@@ -117,7 +119,7 @@ impl Eye<'_> {
                 }
                 [Some(only), None] => walk.follow_delta(&vertex, &only),
                 _ => {
-                    if walk.scatter(&vertex, sampler).is_none() {
+                    if walk.scatter_lobes(&vertex, lobes, sampler).is_none() {
                         return;
                     }
                 }
