@@ -146,18 +146,27 @@ pub struct DescribeArgs {
 /// The algorithms, as in scene files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Integrator {
+    /// Path tracing, and photons for the caustics; needs no setting.
+    Auto,
+    /// Path tracing with light sampling.
+    Path,
     /// Two-pass photon mapping.
     #[value(name = "photon_map", alias = "photon-map")]
     PhotonMap,
-    /// Path tracing with light sampling.
-    Path,
+    /// Stochastic progressive photon mapping.
+    Sppm,
+    /// Vertex connection and merging, bidirectional path tracing.
+    Vcm,
 }
 
 impl From<Integrator> for IntegratorKind {
     fn from(integrator: Integrator) -> Self {
         match integrator {
-            Integrator::PhotonMap => Self::PhotonMap,
+            Integrator::Auto => Self::Auto,
             Integrator::Path => Self::Path,
+            Integrator::PhotonMap => Self::PhotonMap,
+            Integrator::Sppm => Self::Sppm,
+            Integrator::Vcm => Self::Vcm,
         }
     }
 }

@@ -54,10 +54,7 @@ fn settings(text: &mut String, desc: &SceneDesc) {
     );
     let Render { passes, seed, max_depth, .. } = desc.render;
     let depth = max_depth.map_or("unlimited depth".to_owned(), |d| format!("depth {d}"));
-    let name = match desc.render.integrator {
-        IntegratorKind::PhotonMap => "photon_map",
-        IntegratorKind::Path => "path",
-    };
+    let name = desc.render.integrator.name();
     row(text, "integrator", &format!("{name}, {passes} passes, seed {seed}, {depth}"));
     if desc.render.integrator == IntegratorKind::PhotonMap {
         let m = &desc.photon_map;

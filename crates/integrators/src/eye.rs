@@ -8,18 +8,20 @@
 
 use bsdf::{BsdfKind, Lobes, TransportMode};
 use color::Lanes;
-use film::PixelSample;
 use math::{FRAC_1_PI, ONE_MINUS_EPSILON};
 use photons::Scratch;
 use sampling::Sampler;
 use scene::Scene;
 use transport::{
-    LightLayer, Lookup, Vertex, Walk, direct, direct_with, emission_at, emission_escaped, merge,
+    LightLayer, Lookup, PathClass, Vertex, Walk, direct, direct_with, emission_at, emission_escaped, merge,
     nearest_irradiance,
 };
 
-use crate::photon_map::{StoredMap, global_lookup};
-use crate::pixels::{CameraPath, add, add_features};
+use crate::maps::StoredMap;
+use crate::path::add_emission;
+use crate::photon_map::global_lookup;
+use crate::pixels::{CameraPath, Tracer};
+use crate::sink::{Origin, Sink, Technique};
 use crate::{Maps, PhotonMapSettings};
 
 /// Delta vertices of an eye path at which reflection and refraction are both followed; afterwards one is drawn.
@@ -42,8 +44,6 @@ pub(crate) struct Eye<'a> {
     pub maps: &'a Maps,
 }
 
-/// Greatest photon density that a film is given: in small scenes the square of a length is smaller yet.
-const DENSEST: f32 = 8e9;
 /// Gather rays for each shadow ray at the first D surface.
 const GATHER_PER_SHADOW: u32 = 4;
 
@@ -53,6 +53,10 @@ fn shifted_hammersley(i: u32, n: u32, shift: [f32; 2]) -> [f32; 2] {
     [(i as f32 / n as f32 + shift[0]).fract(), (radical_inverse + shift[1]).fract()]
 }
 
+fn add(sink: &mut impl Sink, layer: LightLayer, technique: Technique, radiance: Lanes) {
+    sink.add(Origin { layer, technique, light: None }, radiance);
+}
+
 /// Light gathered at a D surface, times the throughput there.
 #[derive(Default)]
 struct Gathered {
@@ -60,15 +64,17 @@ struct Gathered {
     indirect: Lanes,
 }
 
-impl Eye<'_> {
-    pub fn trace(&self, CameraPath { walk, mut sampler }: CameraPath<'_>, sample: &mut PixelSample) {
+impl Tracer for Eye<'_> {
+    fn trace<S: Sink>(&self, CameraPath { walk, mut sampler, .. }: CameraPath<'_>, sink: &mut S) {
         let mut scratch = Scratch::new();
         let mut branches = vec![(walk, SPLITS)];
         while let Some((walk, splits)) = branches.pop() {
-            self.follow(walk, splits, &mut branches, &mut sampler, &mut scratch, sample);
+            self.follow(walk, splits, &mut branches, &mut sampler, &mut scratch, sink);
         }
     }
+}
 
+impl Eye<'_> {
     /// One branch, up to where it ends or splits.
     fn follow<'s>(
         &self,
@@ -77,34 +83,36 @@ impl Eye<'_> {
         branches: &mut Vec<(Walk<'s>, u32)>,
         sampler: &mut Sampler,
         scratch: &mut Scratch,
-        sample: &mut PixelSample,
+        sink: &mut impl Sink,
     ) {
         loop {
             let Some(vertex) = walk.next_vertex() else {
                 for e in emission_escaped(&walk) {
-                    add(sample, LightLayer::Direct, walk.throughput * e.radiance * e.weight);
+                    add_emission(sink, &walk, PathClass::default(), &e);
                 }
                 return;
             };
+            sink.reached(&walk, &vertex);
             if walk.depth == 0 {
-                add_features(sample, &vertex);
+                sink.features(&vertex);
             }
             if let Some(e) = emission_at(&walk, &vertex) {
-                add(sample, LightLayer::Direct, walk.throughput * e.radiance * e.weight);
+                add_emission(sink, &walk, PathClass::default(), &e);
             }
             if walk.depth >= self.max_depth {
                 return;
             }
             let mut lobes = Lobes::ALL;
             if vertex.bsdf.has_diffuse() {
-                self.shade(&walk, &vertex, sampler, scratch, sample);
+                self.shade(&walk, &vertex, sampler, scratch, sink);
                 if !vertex.bsdf.lobes().contains(Lobes::SPECULAR) {
                     return;
                 }
                 lobes = Lobes::DELTA;
             } else if !vertex.bsdf.is_delta_only() {
-                let reflected = direct(self.scene, &vertex, sampler);
-                add(sample, LightLayer::Direct, walk.throughput * reflected);
+                if let Some(direct) = direct(self.scene, &vertex, sampler) {
+                    add(sink, LightLayer::Direct, Technique::Direct, walk.throughput * direct.radiance);
+                }
             }
             let delta = vertex.bsdf.delta_lobes(vertex.wo, TransportMode::Radiance);
             match delta {
@@ -137,21 +145,21 @@ impl Eye<'_> {
         vertex: &Vertex,
         sampler: &mut Sampler,
         scratch: &mut Scratch,
-        sample: &mut PixelSample,
+        sink: &mut impl Sink,
     ) {
         let beta = walk.throughput;
-        add(sample, LightLayer::Direct, beta * self.direct(vertex, sampler));
-        let caustic = self.caustic(vertex, scratch, sample);
-        add(sample, LightLayer::Caustic, beta * caustic * self.settings.caustic_gain);
+        add(sink, LightLayer::Direct, Technique::Direct, beta * self.direct(vertex, sampler));
+        let caustic = self.caustic(vertex, scratch, sink);
+        add(sink, LightLayer::Caustic, Technique::Merge, beta * caustic * self.settings.caustic_gain);
         let mut gathered = Gathered::default();
         self.gather(walk, vertex, self.settings.final_gather.max(1), 0, sampler, scratch, &mut gathered);
         if let (0, Some(global)) = (self.settings.final_gather, &self.maps.global) {
             let found = merge(&global.map, vertex, &global_lookup(self.settings, global), scratch);
             gathered.indirect += beta * found.radiance;
-            sample.photon_density = (sample.photon_density + found.density()).min(DENSEST);
+            sink.density(found.density());
         }
-        add(sample, LightLayer::Direct, gathered.direct);
-        add(sample, LightLayer::Indirect, gathered.indirect);
+        add(sink, LightLayer::Direct, Technique::Emission, gathered.direct);
+        add(sink, LightLayer::Indirect, Technique::Merge, gathered.indirect);
     }
 
     /// Light straight from the lights by light sampling: a shadow ray for every few gather rays.
@@ -162,20 +170,18 @@ impl Eye<'_> {
         for i in 0..n {
             // Each light gets its share of the rays.
             let u_light = (i as f32 + sampler.next_1d()) / n as f32;
-            sum += direct_with(
-                self.scene,
-                vertex,
-                u_light.min(ONE_MINUS_EPSILON),
-                shifted_hammersley(i, n, shift),
-            );
+            let u_light = u_light.min(ONE_MINUS_EPSILON);
+            if let Some(direct) = direct_with(self.scene, vertex, u_light, shifted_hammersley(i, n, shift)) {
+                sum += direct.radiance;
+            }
         }
         sum / n as f32
     }
 
-    fn caustic(&self, vertex: &Vertex, scratch: &mut Scratch, sample: &mut PixelSample) -> Lanes {
+    fn caustic(&self, vertex: &Vertex, scratch: &mut Scratch, sink: &mut impl Sink) -> Lanes {
         let Some(stored) = &self.maps.caustic else { return Lanes::ZERO };
         let found = merge(&stored.map, vertex, &self.caustic_lookup(stored, vertex), scratch);
-        sample.photon_density = (sample.photon_density + found.density()).min(DENSEST);
+        sink.density(found.density());
         found.radiance
     }
 
@@ -270,7 +276,9 @@ impl Eye<'_> {
         let near = from.is_some_and(|x| (x.hit.p - y.hit.p).length() < NEAR * global.typical_radius);
         if near && level == 0 {
             let mut second = Gathered::default();
-            second.direct += ray.throughput * direct(self.scene, y, sampler);
+            if let Some(direct) = direct(self.scene, y, sampler) {
+                second.direct += ray.throughput * direct.radiance;
+            }
             if let Some(caustic) = &self.maps.caustic {
                 let found = merge(&caustic.map, y, &self.caustic_lookup(caustic, y), scratch);
                 second.indirect += ray.throughput * found.radiance;

@@ -7,7 +7,7 @@ use sampling::{Domain, Streams};
 use scene::Scene;
 use transport::{Lookup, irradiance};
 
-use crate::photon_map::StoredMap;
+use crate::maps::StoredMap;
 
 /// Irradiance is worked out at every so many photons.
 const STRIDE: usize = 4;

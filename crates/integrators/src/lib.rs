@@ -3,18 +3,26 @@
 
 mod eye;
 mod irradiance;
+mod maps;
 mod path;
 mod photon_map;
 mod pixels;
+mod radius;
 mod settings;
+mod sink;
 
 use film::{FilmError, PassFilm};
 use scene::Scene;
 
+pub use maps::{MapReport, Maps, TracedPhotons};
 pub use path::Path;
-pub use photon_map::{MapReport, Maps, PhotonMapper, TracedPhotons};
+pub use photon_map::PhotonMapper;
 pub use photons::Kernel;
-pub use settings::{IntegratorKind, PhotonMapSettings, Settings};
+pub use radius::{RadiusSettings, StartRadius};
+pub use settings::{
+    DirectLight, IntegratorKind, PhotonMapSettings, Settings, SppmSettings, VcmSettings, VcmTechniques,
+};
+pub use sink::Technique;
 
 /// What sessions run. Object-safe: sessions meet it once a pass.
 pub trait Integrator: Send + Sync {
@@ -41,7 +49,9 @@ pub trait Integrator: Send + Sync {
 /// The integrator that the settings name.
 pub fn integrator(settings: &Settings) -> Box<dyn Integrator> {
     match settings.kind {
-        IntegratorKind::Path => Box::new(Path::new(settings.clone())),
-        IntegratorKind::PhotonMap => Box::new(PhotonMapper::new(settings.clone())),
+        IntegratorKind::Path | IntegratorKind::Auto => Box::new(Path::new(settings.clone())),
+        IntegratorKind::PhotonMap | IntegratorKind::Sppm | IntegratorKind::Vcm => {
+            Box::new(PhotonMapper::new(settings.clone()))
+        }
     }
 }

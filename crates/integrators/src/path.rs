@@ -2,11 +2,12 @@
 //! 1995). The oracle that other integrators are tested against.
 
 use bsdf::Lobes;
-use film::{FilmError, PassFilm, PixelSample};
+use film::{FilmError, PassFilm};
 use scene::Scene;
-use transport::{PathClass, direct, emission_at, emission_escaped};
+use transport::{Emission, PathClass, Walk, direct, emission_at, emission_escaped};
 
-use crate::pixels::{CameraPath, add, add_features, render_pixels};
+use crate::pixels::{CameraPath, Tracer, render_pixels};
+use crate::sink::{Origin, Sink, Technique};
 use crate::{Integrator, Maps, Settings, TracedPhotons};
 
 /// Scattering events before Russian roulette begins.
@@ -25,31 +26,42 @@ impl Path {
     pub fn new(settings: Settings) -> Self {
         Self { settings }
     }
+}
 
+/// Light that the walk met.
+#[inline]
+pub(crate) fn add_emission(sink: &mut impl Sink, walk: &Walk<'_>, class: PathClass, e: &Emission) {
+    let origin = Origin { layer: class.layer(), technique: Technique::Emission, light: Some(e.light) };
+    sink.add(origin, walk.throughput * e.radiance * e.weight);
+}
+
+impl Tracer for Path {
     #[inline]
-    fn trace(&self, CameraPath { mut walk, mut sampler }: CameraPath<'_>, sample: &mut PixelSample) {
+    fn trace<S: Sink>(&self, CameraPath { mut walk, mut sampler, .. }: CameraPath<'_>, sink: &mut S) {
         let scene = walk.scene();
         let mut class = PathClass::default();
         loop {
             let Some(vertex) = walk.next_vertex() else {
                 for e in emission_escaped(&walk) {
-                    add(sample, class.layer(), walk.throughput * e.radiance * e.weight);
+                    add_emission(sink, &walk, class, &e);
                 }
                 return;
             };
+            sink.reached(&walk, &vertex);
             if walk.depth == 0 {
-                add_features(sample, &vertex);
+                sink.features(&vertex);
             }
             if let Some(e) = emission_at(&walk, &vertex) {
-                add(sample, class.layer(), walk.throughput * e.radiance * e.weight);
+                add_emission(sink, &walk, class, &e);
             }
             if walk.depth >= self.settings.max_depth {
                 return;
             }
             let is_s = !vertex.bsdf.has_diffuse();
-            let reflected = direct(scene, &vertex, &mut sampler);
-            if !reflected.is_zero() {
-                add(sample, class.scattered(is_s).layer(), walk.throughput * reflected);
+            if let Some(direct) = direct(scene, &vertex, &mut sampler) {
+                let layer = class.scattered(is_s).layer();
+                let origin = Origin { layer, technique: Technique::Direct, light: Some(direct.light) };
+                sink.add(origin, walk.throughput * direct.radiance);
             }
             let Some(scattered) = walk.scatter(&vertex, &mut sampler) else { return };
             class = class.scattered(is_s || scattered.lobes.contains(Lobes::SPECULAR));
@@ -79,6 +91,6 @@ impl Integrator for Path {
     }
 
     fn render(&self, scene: &Scene, _maps: Option<&Maps>, pass: u64) -> Result<PassFilm, FilmError> {
-        render_pixels(scene, &self.settings, pass, |path, sample| self.trace(path, sample))
+        render_pixels(scene, &self.settings, pass, self)
     }
 }

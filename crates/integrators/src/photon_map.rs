@@ -7,8 +7,9 @@ use transport::{Lookup, PhotonBalance, PhotonJob, PhotonPaths, trace_photons};
 
 use crate::eye::Eye;
 use crate::irradiance::irradiance_samples;
+use crate::maps::StoredMap;
 use crate::pixels::render_pixels;
-use crate::{Integrator, PhotonMapSettings, Settings};
+use crate::{Integrator, Maps, PhotonMapSettings, Settings, TracedPhotons};
 
 /// Photon paths of one task; fixed, so that sums have one shape on any number of threads.
 const CHUNK: usize = 4096;
@@ -21,66 +22,6 @@ const PROBES: usize = 256;
 #[derive(Clone, Debug)]
 pub struct PhotonMapper {
     settings: Settings,
-}
-
-/// Photons before their maps are built.
-#[derive(Clone, Debug, Default)]
-pub struct TracedPhotons {
-    global: Vec<Photon>,
-    caustic: Vec<Photon>,
-    /// Energy balance of the global photons, in W.
-    pub global_balance: PhotonBalance,
-    /// Energy balance of the caustic photons, in W.
-    pub caustic_balance: PhotonBalance,
-    /// Photons that became non-finite and were dropped: index of the path and scattering events before.
-    pub nonfinite: Vec<(u64, u32)>,
-}
-
-/// What the eye pass looks up.
-#[derive(Clone, Debug, Default)]
-pub struct Maps {
-    pub(crate) global: Option<StoredMap>,
-    pub(crate) caustic: Option<StoredMap>,
-    /// Irradiance at some of the global photons, for gather rays that end on Lambertian surfaces.
-    pub(crate) irradiance: Option<PhotonMap>,
-}
-
-/// A map and the radii that fit it.
-#[derive(Clone, Debug)]
-pub(crate) struct StoredMap {
-    pub map: PhotonMap,
-    /// Median distance to the k-th neighbour among probes.
-    pub typical_radius: f32,
-    /// Greatest radius of lookups as set; `None`: automatic.
-    pub max_radius: Option<f32>,
-}
-
-/// What a map holds, for reports.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MapReport {
-    /// "global" or "caustic".
-    pub name: &'static str,
-    /// Photons stored.
-    pub photons: usize,
-    /// Bytes, index included.
-    pub bytes: usize,
-    /// Median radius of lookups at the photons themselves, in scene units.
-    pub typical_radius: f32,
-}
-
-impl Maps {
-    /// One report a map.
-    pub fn reports(&self) -> Vec<MapReport> {
-        let report = |name, stored: &Option<StoredMap>| {
-            stored.as_ref().map(|s| MapReport {
-                name,
-                photons: s.map.len(),
-                bytes: s.map.memory_bytes(),
-                typical_radius: s.typical_radius,
-            })
-        };
-        [report("global", &self.global), report("caustic", &self.caustic)].into_iter().flatten().collect()
-    }
 }
 
 impl PhotonMapper {
@@ -170,7 +111,7 @@ impl Integrator for PhotonMapper {
             max_depth: self.settings.max_depth,
             maps: maps.unwrap_or(&none),
         };
-        render_pixels(scene, &self.settings, pass, |path, sample| eye.trace(path, sample))
+        render_pixels(scene, &self.settings, pass, &eye)
     }
 }
 

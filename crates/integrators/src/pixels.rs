@@ -6,9 +6,10 @@ use film::{FilmError, PassFilm, PixelSample};
 use math::Vec2;
 use sampling::{Domain, Sampler, Streams, shifted_r2};
 use scene::Scene;
-use transport::{LightLayer, Vertex, Walk};
+use transport::Walk;
 
 use crate::Settings;
+use crate::sink::Sink;
 
 /// Rows that are handed to a thread at once, and columns of them that are gone through together, so that neighbouring
 /// paths use the same memory. Part of no result: pixels share nothing.
@@ -19,15 +20,33 @@ const COLUMNS: usize = 16;
 pub(crate) struct CameraPath<'s> {
     pub walk: Walk<'s>,
     pub sampler: Sampler,
+    /// Of the whole sample in its pixel.
+    pub weight: f32,
 }
 
-/// One pass: `f` over all pixels.
-pub(crate) fn render_pixels<'s>(
-    scene: &'s Scene,
+/// What an integrator does with one eye path.
+pub(crate) trait Tracer: Sync {
+    fn trace<S: Sink>(&self, path: CameraPath<'_>, sink: &mut S);
+}
+
+/// One pass: the tracer over all pixels.
+pub(crate) fn render_pixels(
+    scene: &Scene,
     settings: &Settings,
     pass: u64,
-    f: impl Fn(CameraPath<'s>, &mut PixelSample) + Sync,
+    tracer: &impl Tracer,
 ) -> Result<PassFilm, FilmError> {
+    let [width, height] = scene.resolution().map(|n| n as usize);
+    PassFilm::new(width, height, trace_pixels(scene, settings, pass, tracer))
+}
+
+/// The samples of one pass, row by row.
+pub(crate) fn trace_pixels(
+    scene: &Scene,
+    settings: &Settings,
+    pass: u64,
+    tracer: &impl Tracer,
+) -> Vec<PixelSample> {
     let [width, height] = scene.resolution().map(|n| n as usize);
     let streams = Streams::new(settings.seed, pass, Domain::Camera);
     let mut samples = vec![PixelSample::default(); width * height];
@@ -35,13 +54,14 @@ pub(crate) fn render_pixels<'s>(
         for first in (0..width).step_by(COLUMNS) {
             for (y, row) in samples.chunks_mut(width).enumerate() {
                 for (x, sample) in row.iter_mut().enumerate().skip(first).take(COLUMNS) {
-                    let path = start(scene, settings, &streams, pass, [x, band * BAND + y], sample);
-                    f(path, sample);
+                    let path = start(scene, settings, &streams, pass, [x, band * BAND + y]);
+                    sample.weight = path.weight;
+                    tracer.trace(path, sample);
                 }
             }
         }
     });
-    PassFilm::new(width, height, samples)
+    samples
 }
 
 #[inline]
@@ -51,7 +71,6 @@ fn start<'s>(
     streams: &Streams,
     pass: u64,
     [x, y]: [usize; 2],
-    sample: &mut PixelSample,
 ) -> CameraPath<'s> {
     let pixel = y as u64 * u64::from(scene.resolution()[0]) + x as u64;
     let mut sampler = streams.path(pixel);
@@ -59,31 +78,7 @@ fn start<'s>(
     let filter = settings.filter.sample(shifted_r2(settings.seed.rotate_left(32) ^ pixel, pass));
     let film_position = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) + filter.offset;
     let camera = scene.camera().sample_we(film_position, sampler.next_2d());
-    sample.weight = filter.weight * camera.weight;
     let walk = Walk::new(scene, TransportMode::Radiance, camera.ray, Lanes::ONE, scene.camera_medium())
         .with_footprint(camera.width, camera.spread);
-    CameraPath { walk, sampler }
-}
-
-/// Adds radiance to a layer of a sample.
-#[inline]
-pub(crate) fn add(sample: &mut PixelSample, layer: LightLayer, radiance: Lanes) {
-    let target = match layer {
-        LightLayer::Direct => &mut sample.direct,
-        LightLayer::Caustic => &mut sample.caustic,
-        LightLayer::Indirect => &mut sample.indirect,
-    };
-    for (t, r) in target.iter_mut().zip(radiance.to_rgb()) {
-        *t += r;
-    }
-}
-
-/// Writes what the first surface of a path is like.
-#[inline]
-pub(crate) fn add_features(sample: &mut PixelSample, vertex: &Vertex) {
-    let ns = vertex.bsdf.ns();
-    let facing = if ns.dot(vertex.wo) < 0.0 { -ns } else { ns };
-    sample.albedo = vertex.bsdf.albedo(vertex.wo).to_rgb();
-    sample.normal = facing.to_array();
-    sample.depth = vertex.hit.t;
+    CameraPath { walk, sampler, weight: filter.weight * camera.weight }
 }

@@ -1,13 +1,21 @@
 use film::Filter;
 use photons::Kernel;
 
+use crate::RadiusSettings;
+
 /// Which algorithm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum IntegratorKind {
+    /// Path tracing, light sampling and merging with photons where that pays.
+    Auto,
     /// Unidirectional path tracing with light sampling.
     Path,
     /// Two-pass photon mapping.
     PhotonMap,
+    /// Stochastic progressive photon mapping.
+    Sppm,
+    /// Vertex connection and merging.
+    Vcm,
 }
 
 /// What to compute, apart from the scene.
@@ -23,6 +31,57 @@ pub struct Settings {
     pub filter: Filter,
     /// Two-pass photon mapping.
     pub photon_map: PhotonMapSettings,
+    /// Stochastic progressive photon mapping.
+    pub sppm: SppmSettings,
+    /// Vertex connection and merging.
+    pub vcm: VcmSettings,
+}
+
+/// Where a progressive estimate gets its light straight from the lights.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DirectLight {
+    /// From light sampling.
+    Sampling,
+    /// From photons.
+    Photons,
+}
+
+/// Settings of stochastic progressive photon mapping.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SppmSettings {
+    /// Photons emitted each pass; `None`: as many as there are pixels.
+    pub photons: Option<u64>,
+    /// Radii.
+    pub radius: RadiusSettings,
+    /// Where direct light comes from.
+    pub direct: DirectLight,
+}
+
+/// Which techniques vertex connection and merging combines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VcmTechniques {
+    /// All: emission, light sampling, connections, merging, light tracing.
+    Vcm,
+    /// All but merging: bidirectional path tracing (Veach & Guibas 1995).
+    Bdpt,
+    /// Vertices of light paths, and lights themselves, joined to the camera. Lights seen through specular surfaces and
+    /// what is seen in them are lost.
+    LightTracing,
+    /// Emission and merging at every vertex of the eye path (Vorba 2011).
+    Bpm,
+    /// Emission and merging at the first vertex that is not specular.
+    Ppm,
+}
+
+/// Settings of vertex connection and merging.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VcmSettings {
+    /// What is combined.
+    pub techniques: VcmTechniques,
+    /// Light paths each pass; `None`: as many as there are pixels.
+    pub light_paths: Option<u64>,
+    /// Radii.
+    pub radius: RadiusSettings,
 }
 
 /// Settings of two-pass photon mapping.

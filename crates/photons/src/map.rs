@@ -119,6 +119,11 @@ impl PhotonMap {
     /// ([`Self::rejected`]). Built on the threads of the enclosing [`par::Workers::run`]; the result does not depend
     /// on their number.
     pub fn build(photons: Vec<Photon>) -> Self {
+        Self::build_ordered(photons).0
+    }
+
+    /// The map, and for each slot the index that its photon had in `photons`: for what else is known of it.
+    pub fn build_ordered(photons: Vec<Photon>) -> (Self, Vec<u32>) {
         let rejected = |p: &Photon| if p.is_sound() { p.position } else { Vec3::NAN };
         let positions: Vec<Vec3> = photons.iter().map(rejected).collect();
         let (tree, order) = KdTree::build(&positions);
@@ -149,7 +154,7 @@ impl PhotonMap {
             map.payloads.extend(payloads);
             map.marks.extend(marks);
         }
-        map
+        (map, order)
     }
 
     /// Number of photons.

@@ -14,6 +14,10 @@ pub enum Domain {
     Pass = 3,
     /// Tests and set-up work.
     Other = 4,
+    /// Light paths of bidirectional methods.
+    LightPath = 5,
+    /// Paths that only plan what is worth tracing.
+    Pilot = 6,
 }
 
 /// The numbers of one path: a PCG32 generator (O'Neill 2014) whose state and increment are the Philox image of

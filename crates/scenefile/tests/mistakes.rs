@@ -113,198 +113,198 @@ power = 2
     check(
         text,
         expect![[r##"
-        error[unknown-kind]: `integrator` of [render] knows no `pathtracer`
-         --> box.toml:2:14
-          |
-        2 | integrator = "pathtracer"
-          |              ^^^^^^^^^^^^
-          = help: did you mean "path"? There are "photon_map", "path"
+            error[unknown-kind]: `integrator` of [render] knows no `pathtracer`
+             --> box.toml:2:14
+              |
+            2 | integrator = "pathtracer"
+              |              ^^^^^^^^^^^^
+              = help: did you mean "path"? There are "auto", "path", "photon_map", "sppm", "vcm"
 
-        error[out-of-range]: `passes` of [render] must be an integer from 1 to 1000000000, not 0
-         --> box.toml:3:10
-          |
-        3 | passes = 0
-          |          ^
+            error[out-of-range]: `passes` of [render] must be an integer from 1 to 1000000000, not 0
+             --> box.toml:3:10
+              |
+            3 | passes = 0
+              |          ^
 
-        error[unknown-table]: unknown table `flim`
-         --> box.toml:4:2
-          |
-        4 | [flim]
-          |  ^^^^
-          = help: did you mean `film`?
+            error[unknown-table]: unknown table `flim`
+             --> box.toml:4:2
+              |
+            4 | [flim]
+              |  ^^^^
+              = help: did you mean `film`?
 
-        error[out-of-range]: the width in `size` of [film] must be an integer from 1 to 65536, not 70000
-         --> box.toml:7:9
-          |
-        7 | size = [70000, 10]
-          |         ^^^^^
+            error[out-of-range]: the width in `size` of [film] must be an integer from 1 to 65536, not 70000
+             --> box.toml:7:9
+              |
+            7 | size = [70000, 10]
+              |         ^^^^^
 
-        error[wrong-type]: `exposure` of [film] must be a number from -64 to 64, not the string `1.5`
-         --> box.toml:8:12
-          |
-        8 | exposure = "1.5"
-          |            ^^^^^
-          = help: remove the quotes
+            error[wrong-type]: `exposure` of [film] must be a number from -64 to 64, not the string `1.5`
+             --> box.toml:8:12
+              |
+            8 | exposure = "1.5"
+              |            ^^^^^
+              = help: remove the quotes
 
-        error[out-of-range]: `filter_radius` of [film] must be a number > 0 and ≤ 16, not NaN
-         --> box.toml:9:17
-          |
-        9 | filter_radius = nan
-          |                 ^^^
+            error[out-of-range]: `filter_radius` of [film] must be a number > 0 and ≤ 16, not NaN
+             --> box.toml:9:17
+              |
+            9 | filter_radius = nan
+              |                 ^^^
 
-        error[missing-key]: missing `look_at` in [camera]
-          --> box.toml:10:1
-           |
-        10 | [camera]
-           | ^^^^^^^^
-           = help: `look_at` is [x, y, z] in scene units: What is in the middle of the picture.
+            error[missing-key]: missing `look_at` in [camera]
+              --> box.toml:10:1
+               |
+            10 | [camera]
+               | ^^^^^^^^
+               = help: `look_at` is [x, y, z] in scene units: What is in the middle of the picture.
 
-        error[unknown-kind]: unknown kind of camera `fisheye`
-          --> box.toml:11:8
-           |
-        11 | kind = "fisheye"
-           |        ^^^^^^^^^
-           = help: there are "pinhole", "thin-lens"
+            error[unknown-kind]: unknown kind of camera `fisheye`
+              --> box.toml:11:8
+               |
+            11 | kind = "fisheye"
+               |        ^^^^^^^^^
+               = help: there are "pinhole", "thin-lens"
 
-        error[out-of-range]: `fov` of [camera] must be a number > 0 and < 180, not 180
-          --> box.toml:13:7
-           |
-        13 | fov = 180
-           |       ^^^
+            error[out-of-range]: `fov` of [camera] must be a number > 0 and < 180, not 180
+              --> box.toml:13:7
+               |
+            13 | fov = 180
+               |       ^^^
 
-        error[missing-key]: missing `kind` in material `red`
-          --> box.toml:14:1
-           |
-        14 | [materials.red]
-           | ^^^^^^^^^^^^^^^
-           = help: it is "diffuse", "phong", "mirror", "dielectric", "conductor" or "plastic"
+            error[missing-key]: missing `kind` in material `red`
+              --> box.toml:14:1
+               |
+            14 | [materials.red]
+               | ^^^^^^^^^^^^^^^
+               = help: it is "diffuse", "phong", "mirror", "dielectric", "conductor" or "plastic"
 
-        error[unknown-key]: unknown key `roughness` in material `shiny`
-          --> box.toml:18:1
-           |
-        18 | roughness = 0.1
-           | ^^^^^^^^^
-           = help: only kind = "conductor" or "plastic" has it
+            error[unknown-key]: unknown key `roughness` in material `shiny`
+              --> box.toml:18:1
+               |
+            18 | roughness = 0.1
+               | ^^^^^^^^^
+               = help: only kind = "conductor" or "plastic" has it
 
-        error[missing-key]: missing `k` in material `gold`
-          --> box.toml:19:1
-           |
-        19 | [materials.gold]
-           | ^^^^^^^^^^^^^^^^
-           = help: `k` is a colour ([r, g, b], grey or "#rrggbb") ≥ 0: Imaginary part of the index.
+            error[missing-key]: missing `k` in material `gold`
+              --> box.toml:19:1
+               |
+            19 | [materials.gold]
+               | ^^^^^^^^^^^^^^^^
+               = help: `k` is a colour ([r, g, b], grey or "#rrggbb") ≥ 0: Imaginary part of the index.
 
-        error[conflict]: `roughness` and `alpha` exclude each other in material `gold`
-          --> box.toml:23:1
-           |
-        23 | alpha = 0.2
-           | ^^^^^
-          ::: box.toml:22:1
-           |
-        22 | roughness = 0.1
-           | --------- the other
+            error[conflict]: `roughness` and `alpha` exclude each other in material `gold`
+              --> box.toml:23:1
+               |
+            23 | alpha = 0.2
+               | ^^^^^
+              ::: box.toml:22:1
+               |
+            22 | roughness = 0.1
+               | --------- the other
 
-        error[wrong-type]: `color` of material `odd` must be a colour ([r, g, b], grey, "#rrggbb" or { texture = "NAME" }) from 0 to 1, not an array of 2
-          --> box.toml:26:9
-           |
-        26 | color = [0.5, 2]
-           |         ^^^^^^^^
+            error[wrong-type]: `color` of material `odd` must be a colour ([r, g, b], grey, "#rrggbb" or { texture = "NAME" }) from 0 to 1, not an array of 2
+              --> box.toml:26:9
+               |
+            26 | color = [0.5, 2]
+               |         ^^^^^^^^
 
-        error[out-of-range]: number 2 of `color` of material `odder` must be a number from 0 to 1, not 2
-          --> box.toml:29:15
-           |
-        29 | color = [0.5, 2, 0.1]
-           |               ^
+            error[out-of-range]: number 2 of `color` of material `odder` must be a number from 0 to 1, not 2
+              --> box.toml:29:15
+               |
+            29 | color = [0.5, 2, 0.1]
+               |               ^
 
-        error[missing-file]: the file `no such.png` of texture `wood` is not there
-          --> box.toml:32:8
-           |
-        32 | file = "no such.png"
-           |        ^^^^^^^^^^^^^
-           = help: file names start from the folder of the scene file
+            error[missing-file]: the file `no such.png` of texture `wood` is not there
+              --> box.toml:32:8
+               |
+            32 | file = "no such.png"
+               |        ^^^^^^^^^^^^^
+               = help: file names start from the folder of the scene file
 
-        error[missing-material]: object 1 has no material
-          --> box.toml:33:1
-           |
-        33 | [[objects]]
-           | ^^^^^^^^^^^
-           = help: give `material`, or `radiance` or `power` to make it a lamp
+            error[missing-material]: object 1 has no material
+              --> box.toml:33:1
+               |
+            33 | [[objects]]
+               | ^^^^^^^^^^^
+               = help: give `material`, or `radiance` or `power` to make it a lamp
 
-        error[unknown-kind]: unknown shape `spere`
-          --> box.toml:34:9
-           |
-        34 | shape = "spere"
-           |         ^^^^^^^
-           = help: did you mean "sphere"? There are "sphere", "disk", "quad", "mesh", "triangles", "box", "teapot", "lathe", "cylinder", "torus", "icosphere", "band", "ring", "coffee-cup", "wine-glass", "wine"
+            error[unknown-kind]: unknown shape `spere`
+              --> box.toml:34:9
+               |
+            34 | shape = "spere"
+               |         ^^^^^^^
+               = help: did you mean "sphere"? There are "sphere", "disk", "quad", "mesh", "triangles", "box", "teapot", "lathe", "cylinder", "torus", "icosphere", "band", "ring", "coffee-cup", "wine-glass", "wine"
 
-        error[out-of-range]: `radius` of object 2 must be a number > 0, not -1
-          --> box.toml:37:10
-           |
-        37 | radius = -1
-           |          ^^
+            error[out-of-range]: `radius` of object 2 must be a number > 0, not -1
+              --> box.toml:37:10
+               |
+            37 | radius = -1
+               |          ^^
 
-        error[unknown-material]: unknown material `rde` in object 2
-          --> box.toml:38:12
-           |
-        38 | material = "rde"
-           |            ^^^^^
-           = help: did you mean `red`?
+            error[unknown-material]: unknown material `rde` in object 2
+              --> box.toml:38:12
+               |
+            38 | material = "rde"
+               |            ^^^^^
+               = help: did you mean `red`?
 
-        error[degenerate]: `edge_u` and `edge_v` are parallel in object 3: a light needs an area
-          --> box.toml:40:9
-           |
-        40 | shape = "quad"
-           |         ^^^^^^
+            error[degenerate]: `edge_u` and `edge_v` are parallel in object 3: a light needs an area
+              --> box.toml:40:9
+               |
+            40 | shape = "quad"
+               |         ^^^^^^
 
-        error[degenerate]: `normal` of object 4 has no length
-          --> box.toml:47:10
-           |
-        47 | normal = [0, 0, 0]
-           |          ^^^^^^^^^
+            error[degenerate]: `normal` of object 4 has no length
+              --> box.toml:47:10
+               |
+            47 | normal = [0, 0, 0]
+               |          ^^^^^^^^^
 
-        error[wrong-type]: `material` of object 4 must be the name of a material or { kind = … }, not 3
-          --> box.toml:48:12
-           |
-        48 | material = 3
-           |            ^
+            error[wrong-type]: `material` of object 4 must be the name of a material or { kind = … }, not 3
+              --> box.toml:48:12
+               |
+            48 | material = 3
+               |            ^
 
-        error[missing-material]: object `pot` has no material
-          --> box.toml:49:1
-           |
-        49 | [[objects]]
-           | ^^^^^^^^^^^
-           = help: give `material`, or `radiance` or `power` to make it a lamp
+            error[missing-material]: object `pot` has no material
+              --> box.toml:49:1
+               |
+            49 | [[objects]]
+               | ^^^^^^^^^^^
+               = help: give `material`, or `radiance` or `power` to make it a lamp
 
-        error[out-of-range]: `level` of object `pot` must be an integer from 1 to 256, not 100000
-          --> box.toml:52:9
-           |
-        52 | level = 100000
-           |         ^^^^^^
+            error[out-of-range]: `level` of object `pot` must be an integer from 1 to 256, not 100000
+              --> box.toml:52:9
+               |
+            52 | level = 100000
+               |         ^^^^^^
 
-        error[unknown-kind]: item 2 of `parts` of object `pot` knows no `handel`
-          --> box.toml:53:17
-           |
-        53 | parts = ["lid", "handel"]
-           |                 ^^^^^^^^
-           = help: did you mean "handle"? There are "body", "handle", "spout", "lid", "bottom"
+            error[unknown-kind]: item 2 of `parts` of object `pot` knows no `handel`
+              --> box.toml:53:17
+               |
+            53 | parts = ["lid", "handel"]
+               |                 ^^^^^^^^
+               = help: did you mean "handle"? There are "body", "handle", "spout", "lid", "bottom"
 
-        error[wrong-type]: `position` of light 1 must be [x, y, z], not an array of 2
-          --> box.toml:56:12
-           |
-        56 | position = [0, 1]
-           |            ^^^^^^
+            error[wrong-type]: `position` of light 1 must be [x, y, z], not an array of 2
+              --> box.toml:56:12
+               |
+            56 | position = [0, 1]
+               |            ^^^^^^
 
-        error[conflict]: `intensity` and `power` exclude each other in light 1
-          --> box.toml:58:1
-           |
-        58 | power = 2
-           | ^^^^^
-          ::: box.toml:57:1
-           |
-        57 | intensity = 1
-           | --------- the other
+            error[conflict]: `intensity` and `power` exclude each other in light 1
+              --> box.toml:58:1
+               |
+            58 | power = 2
+               | ^^^^^
+              ::: box.toml:57:1
+               |
+            57 | intensity = 1
+               | --------- the other
 
-        28 errors
-    "##]],
+            28 errors
+        "##]],
     );
 }
 
@@ -808,7 +808,7 @@ fn overrides_point_at_themselves() {
               |
             1 | render.integrator=pth
               |                   ^^^
-              = help: did you mean "path"? There are "photon_map", "path"
+              = help: did you mean "path"? There are "auto", "path", "photon_map", "sppm", "vcm"
 
             error[override]: invalid float
              --> --set:1:18

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use color::ViewTransform;
 use film::{ExrOptions, Film, PngOptions};
-use scenefile::desc::{IntegratorKind, SceneDesc, View};
+use scenefile::desc::{SceneDesc, View};
 
 use crate::SceneHash;
 
@@ -99,14 +99,10 @@ pub struct PictureInfo {
 impl PictureInfo {
     /// Of a scene whose hash is known.
     pub fn new(desc: &SceneDesc, hash: SceneHash) -> Self {
-        let integrator = match desc.render.integrator {
-            IntegratorKind::Path => "path",
-            IntegratorKind::PhotonMap => "photon_map",
-        };
         let metadata = [
             ("software", concat!("nephroid ", env!("CARGO_PKG_VERSION")).to_owned()),
             ("sceneHash", hash.to_string()),
-            ("integrator", integrator.to_owned()),
+            ("integrator", desc.render.integrator.name().to_owned()),
             ("seed", desc.render.seed.to_string()),
         ];
         Self {

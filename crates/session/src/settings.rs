@@ -1,5 +1,8 @@
 use film::{FilmError, Filter, FilterKind};
-use integrators::{IntegratorKind, Kernel, PhotonMapSettings, Settings};
+use integrators::{
+    DirectLight, IntegratorKind, Kernel, PhotonMapSettings, RadiusSettings, Settings, SppmSettings,
+    StartRadius, VcmSettings, VcmTechniques,
+};
 use scenefile::desc::{self, SceneDesc};
 
 /// What to compute, as the scene says.
@@ -10,8 +13,11 @@ pub fn settings(desc: &SceneDesc) -> Result<Settings, FilmError> {
     let map = &desc.photon_map;
     Ok(Settings {
         kind: match desc.render.integrator {
+            desc::IntegratorKind::Auto => IntegratorKind::Auto,
             desc::IntegratorKind::Path => IntegratorKind::Path,
             desc::IntegratorKind::PhotonMap => IntegratorKind::PhotonMap,
+            desc::IntegratorKind::Sppm => IntegratorKind::Sppm,
+            desc::IntegratorKind::Vcm => IntegratorKind::Vcm,
         },
         seed: desc.render.seed,
         max_depth: desc.render.max_depth.unwrap_or(u32::MAX),
@@ -28,7 +34,31 @@ pub fn settings(desc: &SceneDesc) -> Result<Settings, FilmError> {
             final_gather: map.final_gather,
             caustic_gain: map.caustic_gain,
         },
+        sppm: SppmSettings {
+            photons: desc.sppm.photons,
+            radius: radius(desc.sppm.radius, desc.sppm.radius_pixels, desc.sppm.alpha),
+            direct: match desc.sppm.direct {
+                desc::DirectLight::Sampling => DirectLight::Sampling,
+                desc::DirectLight::Photons => DirectLight::Photons,
+            },
+        },
+        vcm: VcmSettings {
+            techniques: match desc.vcm.techniques {
+                desc::VcmTechniques::Vcm => VcmTechniques::Vcm,
+                desc::VcmTechniques::Bdpt => VcmTechniques::Bdpt,
+                desc::VcmTechniques::LightTracing => VcmTechniques::LightTracing,
+                desc::VcmTechniques::Bpm => VcmTechniques::Bpm,
+                desc::VcmTechniques::Ppm => VcmTechniques::Ppm,
+            },
+            light_paths: desc.vcm.light_paths,
+            radius: radius(desc.vcm.radius, desc.vcm.radius_pixels, desc.vcm.alpha),
+        },
     })
+}
+
+fn radius(world: Option<f32>, pixels: f32, alpha: f32) -> RadiusSettings {
+    let start = world.map_or(StartRadius::Pixels(pixels), StartRadius::World);
+    RadiusSettings { start, alpha }
 }
 
 fn filter_kind(kind: desc::FilterKind) -> FilterKind {
@@ -88,6 +118,36 @@ mod tests {
             caustic_gain: 8.0,
         };
         assert_eq!(settings.photon_map, expected);
+    }
+
+    #[test]
+    fn progressive_settings_arrive() {
+        let mut desc = SceneDesc::default();
+        let pixels = |desc: &SceneDesc| settings(desc).unwrap();
+        let alpha = 2.0 / 3.0;
+        let radius = RadiusSettings { start: StartRadius::Pixels(4.0), alpha };
+        let expected = SppmSettings { photons: None, radius, direct: DirectLight::Sampling };
+        assert_eq!(pixels(&desc).sppm, expected);
+        desc.sppm = desc::Sppm {
+            photons: Some(1),
+            radius: Some(2.0),
+            radius_pixels: 3.0,
+            alpha: 0.5,
+            direct: desc::DirectLight::Photons,
+        };
+        desc.vcm = desc::Vcm {
+            techniques: desc::VcmTechniques::Bpm,
+            light_paths: Some(4),
+            radius: None,
+            radius_pixels: 5.0,
+            alpha: 0.75,
+        };
+        let radius = RadiusSettings { start: StartRadius::World(2.0), alpha: 0.5 };
+        let expected = SppmSettings { photons: Some(1), radius, direct: DirectLight::Photons };
+        assert_eq!(pixels(&desc).sppm, expected);
+        let radius = RadiusSettings { start: StartRadius::Pixels(5.0), alpha: 0.75 };
+        let expected = VcmSettings { techniques: VcmTechniques::Bpm, light_paths: Some(4), radius };
+        assert_eq!(pixels(&desc).vcm, expected);
     }
 
     #[test]

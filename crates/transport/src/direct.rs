@@ -18,10 +18,19 @@ pub fn power_heuristic(own: f32, other: f32) -> f32 {
     1.0 / (1.0 + ratio * ratio)
 }
 
+/// Light that reached a vertex straight from a light.
+#[derive(Clone, Copy, Debug)]
+pub struct Direct {
+    /// Which light.
+    pub light: LightId,
+    /// Reflected toward `vertex.wo`, weighted.
+    pub radiance: Lanes,
+}
+
 /// Next-event estimation: light reflected toward `vertex.wo` that arrives straight from one sampled light, with the
-/// weight against finding the light by BSDF sampling. Not multiplied by any throughput.
+/// weight against finding the light by BSDF sampling. Not multiplied by any throughput. `None`: there is none.
 #[inline]
-pub fn direct(scene: &Scene, vertex: &Vertex, sampler: &mut Sampler) -> Lanes {
+pub fn direct(scene: &Scene, vertex: &Vertex, sampler: &mut Sampler) -> Option<Direct> {
     let u_light = sampler.next_1d();
     let u = sampler.next_2d();
     direct_with(scene, vertex, u_light, u)
@@ -29,21 +38,19 @@ pub fn direct(scene: &Scene, vertex: &Vertex, sampler: &mut Sampler) -> Lanes {
 
 /// [`direct`] from given numbers.
 #[inline]
-pub fn direct_with(scene: &Scene, vertex: &Vertex, u_light: f32, u: [f32; 2]) -> Lanes {
+pub fn direct_with(scene: &Scene, vertex: &Vertex, u_light: f32, u: [f32; 2]) -> Option<Direct> {
     if vertex.bsdf.is_delta_only() {
-        return Lanes::ZERO;
+        return None;
     }
     let (index, pmf, u_pick) = scene.direct_picker().sample(u_light);
     if pmf == 0.0 {
-        return Lanes::ZERO;
+        return None;
     }
     let id = LightId(index as u32);
-    let Some(li) = scene.light(id).sample_li(vertex.hit.p, vertex.hit.ng, u_pick, u) else {
-        return Lanes::ZERO;
-    };
+    let li = scene.light(id).sample_li(vertex.hit.p, vertex.hit.ng, u_pick, u)?;
     let f = vertex.bsdf.eval(vertex.wo, li.wi, TransportMode::Radiance);
     if f.is_zero() || li.radiance.is_zero() {
-        return Lanes::ZERO;
+        return None;
     }
     let cos = vertex.bsdf.ns().dot(li.wi).abs();
     let density = pmf * li.pdf_w;
@@ -58,9 +65,9 @@ pub fn direct_with(scene: &Scene, vertex: &Vertex, u_light: f32, u: [f32; 2]) ->
         vertex.hit.spawn_ray(li.wi)
     };
     if scene.occluded(&ray) {
-        return Lanes::ZERO;
+        return None;
     }
-    f * li.radiance * (cos * weight / density)
+    Some(Direct { light: id, radiance: f * li.radiance * (cos * weight / density) })
 }
 
 /// A light that a walk met by following its own ray.

@@ -8,7 +8,7 @@ mod path_class;
 mod photon;
 mod walk;
 
-pub use direct::{Emission, direct, direct_with, emission_at, emission_escaped, power_heuristic};
+pub use direct::{Direct, Emission, direct, direct_with, emission_at, emission_escaped, power_heuristic};
 pub use emit::{EmittedPhoton, emit, emit_toward_targets};
 pub use merge::{Lookup, Merged, irradiance, merge, nearest_irradiance};
 pub use path_class::{LightLayer, PathClass};

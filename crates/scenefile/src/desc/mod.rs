@@ -36,6 +36,10 @@ pub struct SceneDesc {
     pub camera: Option<Sourced<Camera>>,
     /// Settings of the two-pass photon map.
     pub photon_map: PhotonMap,
+    /// Stochastic progressive photon mapping.
+    pub sppm: Sppm,
+    /// Vertex connection and merging.
+    pub vcm: Vcm,
     /// Textures by name.
     pub textures: BTreeMap<String, Sourced<Texture>>,
     /// Materials by name.
@@ -60,11 +64,30 @@ impl SceneDesc {
 /// The algorithm that renders.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum IntegratorKind {
+    /// Path tracing, light sampling and merging with photons where that pays.
+    Auto,
+    /// Unidirectional path tracing with light sampling.
+    Path,
     /// Two-pass photon mapping.
     #[default]
     PhotonMap,
-    /// Unidirectional path tracing with light sampling.
-    Path,
+    /// Stochastic progressive photon mapping.
+    Sppm,
+    /// Vertex connection and merging.
+    Vcm,
+}
+
+impl IntegratorKind {
+    /// The name in scene files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Auto => "auto",
+            Self::Path => "path",
+            Self::PhotonMap => "photon_map",
+            Self::Sppm => "sppm",
+            Self::Vcm => "vcm",
+        }
+    }
 }
 
 /// What to compute: `[render]`.
@@ -244,6 +267,86 @@ impl Default for PhotonMap {
             caustic_radius: None,
             final_gather: 16,
             caustic_gain: 1.0,
+        }
+    }
+}
+
+/// Where a progressive estimate gets its light straight from the lights.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum DirectLight {
+    /// From light sampling.
+    #[default]
+    Sampling,
+    /// From photons, too.
+    Photons,
+}
+
+/// Stochastic progressive photon mapping: `[sppm]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sppm {
+    /// Photons emitted each pass; `None`: as many as there are pixels.
+    pub photons: Option<u64>,
+    /// Radius of the first pass in scene units; `None`: `radius_pixels` decides.
+    pub radius: Option<f32>,
+    /// Radius of the first pass in widths of a pixel where the eye meets the surface.
+    pub radius_pixels: f32,
+    /// α of Knaus & Zwicker 2011: how slowly the radius shrinks.
+    pub alpha: f32,
+    /// Where direct light comes from.
+    pub direct: DirectLight,
+}
+
+impl Default for Sppm {
+    fn default() -> Self {
+        Self {
+            photons: None,
+            radius: None,
+            radius_pixels: 4.0,
+            alpha: 2.0 / 3.0,
+            direct: DirectLight::Sampling,
+        }
+    }
+}
+
+/// Which techniques vertex connection and merging combines.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum VcmTechniques {
+    /// All of them.
+    #[default]
+    Vcm,
+    /// Connections and light tracing: bidirectional path tracing.
+    Bdpt,
+    /// Light paths alone, each vertex connected to the camera.
+    LightTracing,
+    /// Merging at every vertex of the camera path, and light sampling.
+    Bpm,
+    /// Merging at the first vertex that is not specular.
+    Ppm,
+}
+
+/// Vertex connection and merging: `[vcm]`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vcm {
+    /// What it combines.
+    pub techniques: VcmTechniques,
+    /// Light paths each pass; `None`: as many as there are pixels.
+    pub light_paths: Option<u64>,
+    /// Radius of the first pass in scene units; `None`: `radius_pixels` decides.
+    pub radius: Option<f32>,
+    /// Radius of the first pass in widths of a pixel where the eye meets the surface.
+    pub radius_pixels: f32,
+    /// α of Knaus & Zwicker 2011: how slowly the radius shrinks.
+    pub alpha: f32,
+}
+
+impl Default for Vcm {
+    fn default() -> Self {
+        Self {
+            techniques: VcmTechniques::Vcm,
+            light_paths: None,
+            radius: None,
+            radius_pixels: 4.0,
+            alpha: 2.0 / 3.0,
         }
     }
 }

@@ -30,6 +30,8 @@ pub(crate) fn scene(report: &mut Report, root: &Table) -> SceneDesc {
             "photon_map" => with_table(report, &spec::PHOTON_MAP, node, |report, r| {
                 settings::photon_map(report, r, &mut desc)
             }),
+            "sppm" => with_table(report, &spec::SPPM, node, |report, r| settings::sppm(report, r, &mut desc)),
+            "vcm" => with_table(report, &spec::VCM, node, |report, r| settings::vcm(report, r, &mut desc)),
             "textures" => each_named(report, &spec::TEXTURES, node, |report, entry, what| {
                 let texture = material::texture(report, what, &entry.node);
                 desc.textures.insert(entry.key.clone(), Sourced::at(texture, name_span(entry)));

@@ -1,8 +1,8 @@
-//! `[render]`, `[film]`, `[camera]`, `[photon_map]`.
+//! `[render]`, `[film]`, `[camera]`, `[photon_map]`, `[sppm]`, `[vcm]`.
 
 use crate::desc::{
-    Camera, CameraKind, Film, FilterKind, FovAxis, IntegratorKind, PhotonFilter, PhotonMap, Render,
-    SceneDesc, View,
+    Camera, CameraKind, DirectLight, Film, FilterKind, FovAxis, IntegratorKind, PhotonFilter, PhotonMap,
+    Render, SceneDesc, Sppm, Vcm, VcmTechniques, View,
 };
 use crate::diagnostic::{Diagnostic, Report};
 use crate::reader::Reader;
@@ -13,7 +13,10 @@ const MOST_PIXELS: u64 = 1 << 30;
 
 pub(super) fn render(report: &mut Report, r: &Reader<'_>, desc: &mut SceneDesc) {
     let integrator = r.word(report, "integrator").map(|word| match word {
+        "auto" => IntegratorKind::Auto,
         "path" => IntegratorKind::Path,
+        "sppm" => IntegratorKind::Sppm,
+        "vcm" => IntegratorKind::Vcm,
         _ => IntegratorKind::PhotonMap,
     });
     let passes = r.integer(report, "passes");
@@ -123,5 +126,56 @@ fn read_photon_map(report: &mut Report, r: &Reader<'_>) -> Option<PhotonMap> {
         caustic_radius: caustic_radius?,
         final_gather: final_gather?,
         caustic_gain: caustic_gain?,
+    })
+}
+
+pub(super) fn sppm(report: &mut Report, r: &Reader<'_>, desc: &mut SceneDesc) {
+    if let Some(sppm) = read_sppm(report, r) {
+        desc.sppm = sppm;
+    }
+}
+
+fn read_sppm(report: &mut Report, r: &Reader<'_>) -> Option<Sppm> {
+    let photons = r.optional_integer(report, "photons");
+    let radius = r.optional_number(report, "radius");
+    let radius_pixels = r.number(report, "radius_pixels");
+    let alpha = r.number(report, "alpha");
+    let direct = r.word(report, "direct").map(|word| match word {
+        "photons" => DirectLight::Photons,
+        _ => DirectLight::Sampling,
+    });
+    Some(Sppm {
+        photons: photons?,
+        radius: radius?,
+        radius_pixels: radius_pixels?,
+        alpha: alpha?,
+        direct: direct?,
+    })
+}
+
+pub(super) fn vcm(report: &mut Report, r: &Reader<'_>, desc: &mut SceneDesc) {
+    if let Some(vcm) = read_vcm(report, r) {
+        desc.vcm = vcm;
+    }
+}
+
+fn read_vcm(report: &mut Report, r: &Reader<'_>) -> Option<Vcm> {
+    let techniques = r.word(report, "techniques").map(|word| match word {
+        "bdpt" => VcmTechniques::Bdpt,
+        "light-tracing" => VcmTechniques::LightTracing,
+        "bpm" => VcmTechniques::Bpm,
+        "ppm" => VcmTechniques::Ppm,
+        _ => VcmTechniques::Vcm,
+    });
+    let light_paths = r.optional_integer(report, "light_paths");
+    let radius = r.optional_number(report, "radius");
+    let radius_pixels = r.number(report, "radius_pixels");
+    let alpha = r.number(report, "alpha");
+    Some(Vcm {
+        techniques: techniques?,
+        light_paths: light_paths?,
+        radius: radius?,
+        radius_pixels: radius_pixels?,
+        alpha: alpha?,
     })
 }

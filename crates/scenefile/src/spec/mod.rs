@@ -9,7 +9,7 @@ mod settings;
 pub use light::LIGHTS;
 pub use material::{MATERIALS, TEXTURE_REF, TEXTURES};
 pub use object::{GROUPS, INSTANCES, LOOK_AT, OBJECTS, ROTATE, TRANSFORM};
-pub use settings::{CAMERA, FILM, PHOTON_MAP, RENDER};
+pub use settings::{CAMERA, FILM, PHOTON_MAP, RENDER, SPPM, VCM};
 
 /// Numbers that a key allows; always finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -271,6 +271,8 @@ pub const SECTIONS: &[&Section] = &[
     &FILM,
     &CAMERA,
     &PHOTON_MAP,
+    &SPPM,
+    &VCM,
     &TEXTURES,
     &MATERIALS,
     &OBJECTS,

@@ -1,14 +1,17 @@
-//! `[render]`, `[film]`, `[camera]`, `[photon_map]`.
+//! `[render]`, `[film]`, `[camera]`, `[photon_map]`, `[sppm]`, `[vcm]`.
 
 use super::Kind::{Direction, Integer, Number, Point, Size};
 use super::Preset::{Absent, Pair, Required, Triple};
 use super::{
-    Form, Kind, NON_NEGATIVE, POSITIVE, Preset, Range, Section, Switch, Variant, Word, closed, key, word,
+    Form, Key, Kind, NON_NEGATIVE, POSITIVE, Preset, Range, Section, Switch, Variant, Word, closed, key, word,
 };
 
 const INTEGRATORS: &[Word] = &[
-    word("photon_map", "Two-pass photon mapping: caustic and global map, final gathering."),
+    word("auto", "Path tracing, and photons for the caustics; needs no setting."),
     word("path", "Unidirectional path tracing with light sampling."),
+    word("photon_map", "Two-pass photon mapping: caustic and global map, final gathering."),
+    word("sppm", "Stochastic progressive photon mapping."),
+    word("vcm", "Vertex connection and merging; bidirectional path tracing and others as its settings."),
 ];
 
 /// `[render]`.
@@ -225,4 +228,90 @@ pub const PHOTON_MAP: Section = Section {
         ),
     ],
     example: "[photon_map]\nphotons = 300_000\nknn = 500\ncaustic_photons = 600_000\ncaustic_knn = 80\n",
+};
+
+const LEAST_ALPHA: Range = Range { open_max: false, max: 1.0, ..POSITIVE };
+const RADIUS: Key = key(
+    "radius",
+    Number(POSITIVE),
+    "scene units",
+    Absent("as radius_pixels says"),
+    "Radius of the first pass; later ones are smaller.",
+);
+const RADIUS_PIXELS: Key = key(
+    "radius_pixels",
+    Number(POSITIVE),
+    "pixels",
+    Preset::Number(4.0),
+    "Radius of the first pass in widths of a pixel at the surface, through mirrors and glass.",
+);
+const ALPHA: Key = key(
+    "alpha",
+    Number(LEAST_ALPHA),
+    "",
+    Preset::Number(2.0 / 3.0),
+    "How slowly radii shrink: their squares as passes^(alpha - 1); 1 keeps them (Knaus & Zwicker 2011).",
+);
+
+const DIRECT: &[Word] =
+    &[word("sampling", "From light sampling."), word("photons", "From photons like all other light.")];
+
+/// `[sppm]`.
+pub const SPPM: Section = Section {
+    name: "sppm",
+    noun: "table",
+    form: Form::Table,
+    doc: "Stochastic progressive photon mapping (render.integrator = \"sppm\"); nothing here need be given.",
+    switch: None,
+    keys: &[
+        key(
+            "photons",
+            Integer(1, 1_000_000_000),
+            "photons",
+            Absent("as many as pixels"),
+            "Photons emitted each pass.",
+        ),
+        RADIUS,
+        RADIUS_PIXELS,
+        ALPHA,
+        key(
+            "direct",
+            Kind::Word(DIRECT),
+            "",
+            Preset::Word("sampling"),
+            "Where light that comes straight from a light is found.",
+        ),
+    ],
+    example: "[sppm]\nphotons = 300_000\nradius_pixels = 3\n",
+};
+
+const TECHNIQUES: &[Word] = &[
+    word("vcm", "All: light sampling, connections, merging, light tracing."),
+    word("bdpt", "Bidirectional path tracing: all but merging."),
+    word("light-tracing", "Light paths whose vertices are connected to the camera; nothing else."),
+    word("bpm", "Bidirectional photon mapping: merging at every vertex of the camera path."),
+    word("ppm", "Photon mapping: merging at the first vertex that is not specular."),
+];
+
+/// `[vcm]`.
+pub const VCM: Section = Section {
+    name: "vcm",
+    noun: "table",
+    form: Form::Table,
+    doc: "Vertex connection and merging (render.integrator = \"vcm\"); nothing here need be given.",
+    switch: None,
+    keys: &[
+        key("techniques", Kind::Word(TECHNIQUES), "", Preset::Word("vcm"), "What is combined."),
+        key(
+            "light_paths",
+            Integer(1, 1_000_000_000),
+            "paths",
+            Absent("as many as pixels"),
+            "Light paths each pass.",
+        ),
+        RADIUS,
+        RADIUS_PIXELS,
+        ALPHA,
+    ],
+    example: "[vcm]\ntechniques = \"bdpt\"\n",
 };

@@ -6,9 +6,10 @@ use std::fmt::Write as _;
 
 use crate::desc::ColorSpace;
 use crate::desc::{
-    Camera, CameraKind, Emission, EmissionAmount, FilterKind, FovAxis, Instance, IntegratorKind, Light,
+    Camera, CameraKind, DirectLight, Emission, EmissionAmount, FilterKind, FovAxis, Instance, Light,
     LightKind, Material, MaterialKind, MaterialRef, Metal, Normals, Object, PhotonFilter, PointAmount,
-    SceneDesc, Shape, TEAPOT_PARTS, TeapotPart, Texture, TextureFilter, TransformStep, View, Wrap,
+    SceneDesc, Shape, TEAPOT_PARTS, TeapotPart, Texture, TextureFilter, TransformStep, VcmTechniques, View,
+    Wrap,
 };
 use crate::spec::{self, Section};
 use value::{Fields, number, quote, triple};
@@ -17,14 +18,16 @@ use value::{Fields, number, quote, triple};
 /// and every value is one that a scene file may have. File names are written as they are.
 pub fn to_toml(desc: &SceneDesc) -> String {
     let mut out = String::new();
-    let tables = [("render", render(desc)), ("film", film(desc)), ("photon_map", photon_map(desc))];
-    for (name, fields) in &tables[..2] {
-        block(&mut out, &format!("[{name}]"), fields, false);
+    for (header, fields) in [("[render]", render(desc)), ("[film]", film(desc))] {
+        block(&mut out, header, &fields, false);
     }
     if let Some(camera) = &desc.camera {
         block(&mut out, "[camera]", &camera_fields(camera), true);
     }
-    block(&mut out, "[photon_map]", &tables[2].1, false);
+    for (header, fields) in [("[photon_map]", photon_map(desc)), ("[sppm]", sppm(desc)), ("[vcm]", vcm(desc))]
+    {
+        block(&mut out, header, &fields, false);
+    }
     for (name, texture) in &desc.textures {
         block(&mut out, &format!("[textures.{}]", value::key(name)), &texture_fields(texture), true);
     }
@@ -74,13 +77,7 @@ fn fields(section: &'static Section, kind: Option<&'static str>) -> Fields {
 fn render(desc: &SceneDesc) -> Fields {
     let render = &desc.render;
     let mut f = fields(&spec::RENDER, None);
-    f.word(
-        "integrator",
-        match render.integrator {
-            IntegratorKind::PhotonMap => "photon_map",
-            IntegratorKind::Path => "path",
-        },
-    );
+    f.word("integrator", render.integrator.name());
     f.integer("passes", render.passes);
     f.integer("seed", render.seed);
     if let Some(depth) = render.max_depth {
@@ -159,6 +156,47 @@ fn photon_map(desc: &SceneDesc) -> Fields {
     f.optional_number("caustic_radius", map.caustic_radius);
     f.integer("final_gather", map.final_gather);
     f.number("caustic_gain", map.caustic_gain);
+    f
+}
+
+fn sppm(desc: &SceneDesc) -> Fields {
+    let sppm = &desc.sppm;
+    let mut f = fields(&spec::SPPM, None);
+    if let Some(photons) = sppm.photons {
+        f.integer("photons", photons);
+    }
+    f.optional_number("radius", sppm.radius);
+    f.number("radius_pixels", sppm.radius_pixels);
+    f.number("alpha", sppm.alpha);
+    f.word(
+        "direct",
+        match sppm.direct {
+            DirectLight::Sampling => "sampling",
+            DirectLight::Photons => "photons",
+        },
+    );
+    f
+}
+
+fn vcm(desc: &SceneDesc) -> Fields {
+    let vcm = &desc.vcm;
+    let mut f = fields(&spec::VCM, None);
+    f.word(
+        "techniques",
+        match vcm.techniques {
+            VcmTechniques::Vcm => "vcm",
+            VcmTechniques::Bdpt => "bdpt",
+            VcmTechniques::LightTracing => "light-tracing",
+            VcmTechniques::Bpm => "bpm",
+            VcmTechniques::Ppm => "ppm",
+        },
+    );
+    if let Some(paths) = vcm.light_paths {
+        f.integer("light_paths", paths);
+    }
+    f.optional_number("radius", vcm.radius);
+    f.number("radius_pixels", vcm.radius_pixels);
+    f.number("alpha", vcm.alpha);
     f
 }
 
