@@ -1,4 +1,4 @@
-use bsdf::TransportMode;
+use bsdf::{Lobes, TransportMode};
 use color::Lanes;
 use math::Vec3;
 use sampling::Sampler;
@@ -39,6 +39,18 @@ pub fn direct(scene: &Scene, vertex: &Vertex, sampler: &mut Sampler) -> Option<D
 /// [`direct`] from given numbers.
 #[inline]
 pub fn direct_with(scene: &Scene, vertex: &Vertex, u_light: f32, u: [f32; 2]) -> Option<Direct> {
+    direct_against(scene, vertex, Lobes::ALL, u_light, u)
+}
+
+/// [`direct`] from given numbers, weighted against BSDF sampling from `rivals` alone; [`Lobes::NONE`]: not weighted.
+#[inline]
+pub fn direct_against(
+    scene: &Scene,
+    vertex: &Vertex,
+    rivals: Lobes,
+    u_light: f32,
+    u: [f32; 2],
+) -> Option<Direct> {
     if vertex.bsdf.is_delta_only() {
         return None;
     }
@@ -57,7 +69,7 @@ pub fn direct_with(scene: &Scene, vertex: &Vertex, u_light: f32, u: [f32; 2]) ->
     let weight = if li.is_delta {
         1.0
     } else {
-        power_heuristic(density, vertex.bsdf.pdf_w(vertex.wo, li.wi, TransportMode::Radiance))
+        power_heuristic(density, vertex.bsdf.pdf_w_lobes(vertex.wo, li.wi, rivals, TransportMode::Radiance))
     };
     let ray = if li.distance.is_finite() {
         vertex.hit.spawn_ray_to(li.p, li.p_error, li.n)

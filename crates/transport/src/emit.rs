@@ -35,6 +35,39 @@ pub fn emit_toward_targets<'s>(scene: &'s Scene, sampler: &mut Sampler) -> Optio
     })
 }
 
+/// A photon of a mixture: with probability `aimed` as by [`emit_toward_targets`], else as by [`emit`]. The flux is over
+/// the density of both together (one-sample balance heuristic: Veach 1997, §9.2.4), so it is exact for any share, and
+/// no photon carries more than 1/(1 − `aimed`) of what [`emit`] would give it. `None` as there.
+pub fn emit_mixed<'s>(scene: &'s Scene, aimed: f32, sampler: &mut Sampler) -> Option<EmittedPhoton<'s>> {
+    let u_strategy = sampler.next_1d();
+    let (u_light, u_pos, u_dir) = (sampler.next_1d(), sampler.next_2d(), sampler.next_2d());
+    let toward = u_strategy < aimed;
+    let picker = if toward { scene.caustic_picker() } else { scene.global_picker() };
+    let (index, pmf, u_pick) = picker.sample(u_light);
+    if pmf == 0.0 {
+        return None;
+    }
+    let (id, targets) = (LightId(index as u32), scene.targets());
+    let light = scene.light(id);
+    let le = if toward {
+        light.sample_le_toward(targets, u_pick, u_pos, u_dir)
+    } else {
+        light.sample_le(u_pick, u_pos, u_dir)
+    }?;
+    // The sample's normal lies on the side of its direction: of a light whose front does not shine there, the back.
+    let front = if light.emitted(le.n, le.w).is_zero() { -le.n } else { le.n };
+    let own = pmf * le.pdf_a * le.pdf_w;
+    let (other_pmf, (other_a, other_w)) = if toward {
+        (scene.global_picker().pmf(index), light.pdf_le(le.p, front, le.w))
+    } else {
+        (scene.caustic_picker().pmf(index), light.pdf_le_toward(targets, le.p, front, le.w))
+    };
+    let other = other_pmf * other_a * other_w;
+    let density =
+        if toward { aimed * own + (1.0 - aimed) * other } else { (1.0 - aimed) * own + aimed * other };
+    start(scene, id, &le, density)
+}
+
 fn launch<'s>(
     scene: &'s Scene,
     picker: &LightPicker,
@@ -47,7 +80,11 @@ fn launch<'s>(
     }
     let id = LightId(index as u32);
     let le = sample(scene.light(id), u_pick)?;
-    let flux: Lanes = le.radiance * (le.cos / (pmf * le.pdf_a * le.pdf_w));
+    start(scene, id, &le, pmf * le.pdf_a * le.pdf_w)
+}
+
+fn start<'s>(scene: &'s Scene, id: LightId, le: &LeSample, density: f32) -> Option<EmittedPhoton<'s>> {
+    let flux: Lanes = le.radiance * (le.cos / density);
     if flux.is_zero() {
         return None;
     }

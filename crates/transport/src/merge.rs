@@ -1,7 +1,7 @@
 use bsdf::{BsdfKind, TransportMode};
 use color::Lanes;
 use math::FRAC_1_PI;
-use photons::{Kernel, Neighbourhood, PhotonMap, Query, Scratch};
+use photons::{Kernel, Neighbourhood, PhotonMap, PhotonView, Query, Scratch};
 
 use crate::Vertex;
 
@@ -39,32 +39,75 @@ impl Merged {
 }
 
 /// The query at a vertex: on the side that is seen.
-pub(crate) fn query(vertex: &Vertex, lookup: &Lookup) -> Query {
+fn query(vertex: &Vertex, radius: f32, kernel: Kernel) -> Query {
     let ng = vertex.hit.ng;
     let normal = if vertex.wo.dot(ng) < 0.0 { -ng } else { ng };
-    Query { position: vertex.hit.p, normal, radius: lookup.max_radius, kernel: lookup.kernel }
+    Query { position: vertex.hit.p, normal, radius, kernel }
 }
 
-/// Density estimation: L ≈ Σ f·Φ·k(d/r)/r² (Jensen 2001, eq. 7.7), no further cosine. The photons' density carries
-/// the cosine to the geometric normal; where the shading normal is another, theirs replaces it.
+/// What a surface reflects of photons: f toward `vertex.wo`, with the change from the cosine to the geometric normal,
+/// which the photons' density carries, to that of the shading normal.
+enum Receiver<'v> {
+    /// f is the same for every photon above the surface, which they all are.
+    Lambert(Lanes),
+    Level(&'v Vertex),
+    Bent(&'v Vertex),
+}
+
+impl<'v> Receiver<'v> {
+    #[inline]
+    fn new(vertex: &'v Vertex) -> Self {
+        match *vertex.bsdf.kind() {
+            _ if vertex.bsdf.ns() != vertex.hit.ng => Self::Bent(vertex),
+            BsdfKind::Diffuse { albedo } => Self::Lambert(albedo * FRAC_1_PI),
+            _ => Self::Level(vertex),
+        }
+    }
+
+    #[inline]
+    fn reflected(&self, photon: &PhotonView<'_>, weight: f32) -> Lanes {
+        match *self {
+            Self::Lambert(f) => f * photon.power * weight,
+            Self::Level(vertex) => {
+                let f = vertex.bsdf.eval(vertex.wo, photon.direction(), TransportMode::Radiance);
+                f * photon.power * weight
+            }
+            Self::Bent(vertex) => {
+                let wi = photon.direction();
+                let f = vertex.bsdf.eval(vertex.wo, wi, TransportMode::Radiance);
+                f * photon.power * (weight * bend(wi.dot(vertex.bsdf.ns()), wi.dot(vertex.hit.ng)))
+            }
+        }
+    }
+}
+
+/// Density estimation: L ≈ Σ f·Φ·k(d/r)/r² (Jensen 2001, eq. 7.7), no further cosine.
 pub fn merge(map: &PhotonMap, vertex: &Vertex, lookup: &Lookup, scratch: &mut Scratch) -> Merged {
-    let query = query(vertex, lookup);
-    let (ns, ng) = (vertex.bsdf.ns(), vertex.hit.ng);
-    if let BsdfKind::Diffuse { albedo } = *vertex.bsdf.kind()
-        && ns == ng
-    {
-        // f is the same for every photon above the surface, which they all are.
+    let query = query(vertex, lookup.max_radius, lookup.kernel);
+    let receiver = Receiver::new(vertex);
+    if let Receiver::Lambert(f) = receiver {
         let (e, found) = irradiance(map, &query, lookup.knn, scratch);
-        return Merged { radiance: albedo * e * FRAC_1_PI, radius: found.radius, count: found.count };
+        return Merged { radiance: f * e, radius: found.radius, count: found.count };
     }
     let mut radiance = Lanes::ZERO;
     let found = map.gather_knn(&query, lookup.knn, scratch, |photon, weight| {
-        let wi = photon.direction();
-        let f = vertex.bsdf.eval(vertex.wo, wi, TransportMode::Radiance);
-        let bend = if ns == ng { 1.0 } else { bend(wi.dot(ns), wi.dot(ng)) };
-        radiance += f * photon.power * (weight * bend);
+        radiance += receiver.reflected(photon, weight);
     });
     Merged { radiance, radius: found.radius, count: found.count }
+}
+
+/// The same estimate with a given radius: calls `f` with each photon and the radiance that it adds toward `vertex.wo`,
+/// and returns their number.
+#[inline]
+pub fn merge_within(
+    map: &PhotonMap,
+    vertex: &Vertex,
+    radius: f32,
+    kernel: Kernel,
+    mut f: impl FnMut(&PhotonView<'_>, Lanes),
+) -> usize {
+    let receiver = Receiver::new(vertex);
+    map.gather(&query(vertex, radius, kernel), |photon, weight| f(photon, receiver.reflected(photon, weight)))
 }
 
 /// |cos to the shading normal| / |cos to the geometric normal|.
@@ -92,7 +135,7 @@ pub fn nearest_irradiance(
     max_radius: f32,
     scratch: &mut Scratch,
 ) -> Option<Lanes> {
-    let query = query(vertex, &Lookup { knn: 2, max_radius, kernel: Kernel::Constant });
+    let query = query(vertex, max_radius, Kernel::Constant);
     let mut found: Option<(f32, Lanes)> = None;
     // Of two neighbours the second is dropped, so this is a search for the one nearest; where the second lies
     // beyond the radius, both may be shown.

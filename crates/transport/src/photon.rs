@@ -6,7 +6,7 @@ use photons::{Photon, PhotonFlags};
 use sampling::{Domain, Sampler, Streams};
 use scene::Scene;
 
-use crate::{EmittedPhoton, Vertex, Walk, emit, emit_toward_targets};
+use crate::{EmittedPhoton, Vertex, Walk, emit, emit_mixed, emit_toward_targets};
 
 /// Which photons are wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -17,7 +17,15 @@ pub enum PhotonPaths {
     Indirect,
     /// L S⁺ D, aimed at the specular objects.
     Caustic,
+    /// As `Global`; where there are specular objects, a share of the paths is aimed at them.
+    Mixed,
+    /// L (S|D)⁺ D: as `Mixed`, without what comes straight from a light.
+    MixedScattered,
 }
+
+/// Share of a mixture's paths that are aimed: enough for the caustics of an object that lights hardly see, and no
+/// other photon carries more than 4/3 of what it would without.
+const AIMED: f32 = 0.25;
 
 /// A budget of photons.
 #[derive(Clone, Copy, Debug)]
@@ -79,13 +87,20 @@ impl PhotonBalance {
 pub fn trace_photons(scene: &Scene, job: &PhotonJob, range: Range<u64>) -> PhotonBatch {
     let mut batch = PhotonBatch::default();
     let share = 1.0 / job.count as f32;
-    let aimed = job.paths == PhotonPaths::Caustic;
-    let domain = if aimed { Domain::CausticPhoton } else { Domain::GlobalPhoton };
+    let domain = match job.paths {
+        PhotonPaths::Caustic => Domain::CausticPhoton,
+        _ => Domain::GlobalPhoton,
+    };
     let streams = Streams::new(job.seed, job.map_index, domain);
     for path in range {
         let mut sampler = streams.path(path);
-        let emitted =
-            if aimed { emit_toward_targets(scene, &mut sampler) } else { emit(scene, &mut sampler) };
+        let emitted = match job.paths {
+            PhotonPaths::Caustic => emit_toward_targets(scene, &mut sampler),
+            PhotonPaths::Mixed | PhotonPaths::MixedScattered if !scene.targets().is_empty() => {
+                emit_mixed(scene, AIMED, &mut sampler)
+            }
+            _ => emit(scene, &mut sampler),
+        };
         let Some(EmittedPhoton { mut walk, .. }) = emitted else { continue };
         walk.throughput *= share;
         batch.balance.emitted += flux(&walk);
@@ -157,7 +172,8 @@ fn trace_one(
 
 fn wanted(paths: PhotonPaths, diffuse_events: u32, specular_events: u32) -> bool {
     match paths {
-        PhotonPaths::Global => true,
+        PhotonPaths::Global | PhotonPaths::Mixed => true,
+        PhotonPaths::MixedScattered => diffuse_events + specular_events > 0,
         PhotonPaths::Indirect => diffuse_events > 0,
         PhotonPaths::Caustic => specular_events > 0 && diffuse_events == 0,
     }
