@@ -6,10 +6,12 @@ mod irradiance;
 mod maps;
 mod path;
 mod photon_map;
+mod photon_pass;
 mod pixels;
 mod radius;
 mod settings;
 mod sink;
+mod sppm;
 
 use film::{FilmError, PassFilm};
 use scene::Scene;
@@ -23,6 +25,7 @@ pub use settings::{
     DirectLight, IntegratorKind, PhotonMapSettings, Settings, SppmSettings, VcmSettings, VcmTechniques,
 };
 pub use sink::Technique;
+pub use sppm::Sppm;
 
 /// What sessions run. Object-safe: sessions meet it once a pass.
 pub trait Integrator: Send + Sync {
@@ -50,8 +53,7 @@ pub trait Integrator: Send + Sync {
 pub fn integrator(settings: &Settings) -> Box<dyn Integrator> {
     match settings.kind {
         IntegratorKind::Path | IntegratorKind::Auto => Box::new(Path::new(settings.clone())),
-        IntegratorKind::PhotonMap | IntegratorKind::Sppm | IntegratorKind::Vcm => {
-            Box::new(PhotonMapper::new(settings.clone()))
-        }
+        IntegratorKind::Sppm => Box::new(Sppm::new(settings.clone())),
+        IntegratorKind::PhotonMap | IntegratorKind::Vcm => Box::new(PhotonMapper::new(settings.clone())),
     }
 }

@@ -6,6 +6,8 @@ use transport::PhotonBalance;
 pub struct TracedPhotons {
     pub(crate) global: Vec<Photon>,
     pub(crate) caustic: Vec<Photon>,
+    /// Median radius of lookups, in scene units, where it is known before the map is; else 0.
+    pub(crate) typical_radius: f32,
     /// Energy balance of the global photons, in W.
     pub global_balance: PhotonBalance,
     /// Energy balance of the caustic photons, in W.
@@ -21,13 +23,15 @@ pub struct Maps {
     pub(crate) caustic: Option<StoredMap>,
     /// Irradiance at some of the global photons, for gather rays that end on Lambertian surfaces.
     pub(crate) irradiance: Option<PhotonMap>,
+    /// Photons of one pass, for lookups within radii that pixels give.
+    pub(crate) merging: Option<StoredMap>,
 }
 
 /// A map and the radii that fit it.
 #[derive(Clone, Debug)]
 pub(crate) struct StoredMap {
     pub map: PhotonMap,
-    /// Median distance to the k-th neighbour among probes.
+    /// Median radius of lookups at probes.
     pub typical_radius: f32,
     /// Greatest radius of lookups as set; `None`: automatic.
     pub max_radius: Option<f32>,
@@ -36,13 +40,13 @@ pub(crate) struct StoredMap {
 /// What a map holds, for reports.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapReport {
-    /// "global" or "caustic".
+    /// "global", "caustic" or "photon".
     pub name: &'static str,
     /// Photons stored.
     pub photons: usize,
     /// Bytes, index included.
     pub bytes: usize,
-    /// Median radius of lookups at the photons themselves, in scene units.
+    /// Median radius of lookups, in scene units.
     pub typical_radius: f32,
 }
 
@@ -57,6 +61,11 @@ impl Maps {
                 typical_radius: s.typical_radius,
             })
         };
-        [report("global", &self.global), report("caustic", &self.caustic)].into_iter().flatten().collect()
+        let all = [
+            report("global", &self.global),
+            report("caustic", &self.caustic),
+            report("photon", &self.merging),
+        ];
+        all.into_iter().flatten().collect()
     }
 }

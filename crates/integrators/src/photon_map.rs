@@ -3,16 +3,15 @@
 use film::{FilmError, PassFilm};
 use photons::{Kernel, Photon, PhotonMap, Query, Scratch};
 use scene::Scene;
-use transport::{Lookup, PhotonBalance, PhotonJob, PhotonPaths, trace_photons};
+use transport::{Lookup, PhotonJob, PhotonPaths};
 
 use crate::eye::Eye;
 use crate::irradiance::irradiance_samples;
 use crate::maps::StoredMap;
+use crate::photon_pass::{Traced, trace_job};
 use crate::pixels::render_pixels;
 use crate::{Integrator, Maps, PhotonMapSettings, Settings, TracedPhotons};
 
-/// Photon paths of one task; fixed, so that sums have one shape on any number of threads.
-const CHUNK: usize = 4096;
 /// Greatest radius of lookups in the global map, in typical radii, unless it is set.
 const GLOBAL_RADII: f32 = 4.0;
 /// Photons at which the typical lookup radius of a map is measured.
@@ -32,25 +31,8 @@ impl PhotonMapper {
 
     fn trace(&self, scene: &Scene, paths: PhotonPaths, count: u64, max_depth: u32, map_index: u64) -> Traced {
         let job = PhotonJob { paths, count, seed: self.settings.seed, map_index, max_depth };
-        let batches = par::map_chunks(count as usize, CHUNK, |range| {
-            trace_photons(scene, &job, range.start as u64..range.end as u64)
-        });
-        let mut out = Traced::default();
-        out.photons.reserve_exact(batches.iter().map(|b| b.photons.len()).sum());
-        for batch in batches {
-            out.photons.extend_from_slice(&batch.photons);
-            out.balance = out.balance.plus(&batch.balance);
-            out.nonfinite.extend(batch.nonfinite);
-        }
-        out
+        trace_job(scene, &job)
     }
-}
-
-#[derive(Default)]
-struct Traced {
-    photons: Vec<Photon>,
-    balance: PhotonBalance,
-    nonfinite: Vec<(u64, u32)>,
 }
 
 impl Integrator for PhotonMapper {
@@ -87,6 +69,7 @@ impl Integrator for PhotonMapper {
             global_balance: global.balance,
             caustic_balance: caustic.balance,
             nonfinite,
+            ..TracedPhotons::default()
         }
     }
 
@@ -100,7 +83,7 @@ impl Integrator for PhotonMapper {
             .as_ref()
             .filter(|_| s.final_gather > 0)
             .map(|g| irradiance_samples(scene, g, &global_lookup(s, g), self.settings.seed));
-        Maps { global, caustic, irradiance }
+        Maps { global, caustic, irradiance, ..Maps::default() }
     }
 
     fn render(&self, scene: &Scene, maps: Option<&Maps>, pass: u64) -> Result<PassFilm, FilmError> {

@@ -1,0 +1,31 @@
+//! All photons of a job, traced on all threads.
+
+use photons::Photon;
+use scene::Scene;
+use transport::{PhotonBalance, PhotonJob, trace_photons};
+
+/// Photon paths of one task; fixed, so that sums have one shape on any number of threads.
+const CHUNK: usize = 4096;
+
+/// What a job gave.
+#[derive(Default)]
+pub(crate) struct Traced {
+    pub photons: Vec<Photon>,
+    pub balance: PhotonBalance,
+    pub nonfinite: Vec<(u64, u32)>,
+}
+
+/// A whole job, in index order.
+pub(crate) fn trace_job(scene: &Scene, job: &PhotonJob) -> Traced {
+    let batches = par::map_chunks(job.count as usize, CHUNK, |range| {
+        trace_photons(scene, job, range.start as u64..range.end as u64)
+    });
+    let mut out = Traced::default();
+    out.photons.reserve_exact(batches.iter().map(|b| b.photons.len()).sum());
+    for batch in batches {
+        out.photons.extend_from_slice(&batch.photons);
+        out.balance = out.balance.plus(&batch.balance);
+        out.nonfinite.extend(batch.nonfinite);
+    }
+    out
+}

@@ -1,0 +1,226 @@
+//! Stochastic progressive photon mapping without memory (Hachisuka & Jensen 2009; Knaus & Zwicker 2011). Every pass
+//! traces photons of its own and estimates their density at the first D surface of every eye path, within a radius
+//! that follows from the pass alone. Every path from the camera to a light is counted once. With x that D surface,
+//! reached through S*,
+//!
+//! * emission seen before x and at x: the eye path itself; where it was scattered by a rough S surface, weighted
+//!   against light sampling there;
+//! * light that reaches x straight from a light: light sampling and BSDF sampling, or photons (a setting);
+//! * all other light at x: photons.
+
+use bsdf::Lobes;
+use color::Lanes;
+use film::{FilmError, PassFilm};
+use photons::{Kernel, PhotonFlags, PhotonMap};
+use sampling::Sampler;
+use scene::Scene;
+use transport::{
+    LightLayer, PathClass, PhotonJob, PhotonPaths, Vertex, Walk, direct, direct_against, emission_at,
+    emission_escaped, merge_within,
+};
+
+use crate::maps::StoredMap;
+use crate::path::add_emission;
+use crate::photon_pass::trace_job;
+use crate::pixels::{CameraPath, Tracer, render_pixels};
+use crate::radius::PassRadius;
+use crate::sink::{Origin, Sink, Technique};
+use crate::{DirectLight, Integrator, Maps, Settings, TracedPhotons};
+
+/// For equal bias this kernel needs a radius of √1.5 of the constant one's, and has 8/9 of its variance then: of all
+/// kernels the least (Epanechnikov 1969).
+const KERNEL: Kernel = Kernel::Epanechnikov;
+/// Eye paths that carry less are ended by roulette.
+const FAINT: f32 = 0.1;
+
+/// Stochastic progressive photon mapping.
+#[derive(Clone, Debug)]
+pub struct Sppm {
+    settings: Settings,
+}
+
+impl Sppm {
+    /// An integrator of these settings.
+    pub fn new(settings: Settings) -> Self {
+        Self { settings }
+    }
+
+    fn radius(&self, scene: &Scene, pass: u64) -> PassRadius {
+        self.settings.sppm.radius.of_pass(pass, scene.bounds().size().length())
+    }
+}
+
+impl Integrator for Sppm {
+    fn name(&self) -> &'static str {
+        "sppm"
+    }
+
+    fn map_index(&self, pass: u64) -> Option<u64> {
+        Some(pass)
+    }
+
+    fn trace_photons(&self, scene: &Scene, map_index: u64) -> TracedPhotons {
+        let [width, height] = scene.resolution().map(u64::from);
+        let (paths, least_depth) = match self.settings.sppm.direct {
+            DirectLight::Sampling => (PhotonPaths::MixedScattered, 2),
+            DirectLight::Photons => (PhotonPaths::Mixed, 1),
+        };
+        if self.settings.max_depth < least_depth {
+            return TracedPhotons::default();
+        }
+        let traced = trace_job(
+            scene,
+            &PhotonJob {
+                paths,
+                count: self.settings.sppm.photons.unwrap_or(width * height),
+                seed: self.settings.seed,
+                map_index,
+                max_depth: self.settings.max_depth,
+            },
+        );
+        TracedPhotons {
+            global: traced.photons,
+            global_balance: traced.balance,
+            nonfinite: traced.nonfinite,
+            ..TracedPhotons::default()
+        }
+    }
+
+    fn build_maps(&self, _scene: &Scene, photons: TracedPhotons) -> Maps {
+        let map = PhotonMap::build(photons.global);
+        let merging = StoredMap { map, typical_radius: photons.typical_radius, max_radius: None };
+        Maps { merging: Some(merging), ..Maps::default() }
+    }
+
+    fn render(&self, scene: &Scene, maps: Option<&Maps>, pass: u64) -> Result<PassFilm, FilmError> {
+        let eye = Eye {
+            map: maps.and_then(|maps| maps.merging.as_ref()).map(|stored| &stored.map),
+            radius: self.radius(scene, pass),
+            max_depth: self.settings.max_depth,
+            direct: self.settings.sppm.direct,
+        };
+        render_pixels(scene, &self.settings, pass, &eye)
+    }
+}
+
+/// The eye paths of one pass.
+struct Eye<'a> {
+    map: Option<&'a PhotonMap>,
+    radius: PassRadius,
+    max_depth: u32,
+    direct: DirectLight,
+}
+
+fn add(sink: &mut impl Sink, layer: LightLayer, technique: Technique, radiance: Lanes) {
+    sink.add(Origin { layer, technique, light: None }, radiance);
+}
+
+impl Tracer for Eye<'_> {
+    #[inline]
+    fn trace<S: Sink>(&self, CameraPath { mut walk, mut sampler, .. }: CameraPath<'_>, sink: &mut S) {
+        loop {
+            let Some(vertex) = walk.next_vertex() else {
+                return escape(&walk, sink);
+            };
+            sink.reached(&walk, &vertex);
+            if walk.depth == 0 {
+                sink.features(&vertex);
+            }
+            if let Some(e) = emission_at(&walk, &vertex) {
+                add_emission(sink, &walk, PathClass::default(), &e);
+            }
+            if walk.depth >= self.max_depth {
+                return;
+            }
+            let mut lobes = Lobes::ALL;
+            if vertex.bsdf.has_diffuse() {
+                if self.direct == DirectLight::Sampling {
+                    straight(&walk, &vertex, &mut sampler, sink);
+                }
+                self.merge(&walk, &vertex, sink);
+                if !vertex.bsdf.lobes().contains(Lobes::SPECULAR) {
+                    return;
+                }
+                lobes = Lobes::DELTA;
+            } else if let Some(direct) = direct(walk.scene(), &vertex, &mut sampler) {
+                let origin = Origin {
+                    layer: LightLayer::Direct,
+                    technique: Technique::Direct,
+                    light: Some(direct.light),
+                };
+                sink.add(origin, walk.throughput * direct.radiance);
+            }
+            if walk.scatter_lobes(&vertex, lobes, &mut sampler).is_none()
+                || !walk.roulette(walk.survival() / FAINT, &mut sampler)
+            {
+                return;
+            }
+        }
+    }
+}
+
+/// The lights that a walk sees when it leaves the scene, all S* before.
+fn escape(walk: &Walk<'_>, sink: &mut impl Sink) {
+    for e in emission_escaped(walk) {
+        add_emission(sink, walk, PathClass::default(), &e);
+    }
+}
+
+/// Light that comes straight from a light to a D surface: one sample of the lights and one of the BSDF.
+#[inline]
+fn straight(walk: &Walk<'_>, vertex: &Vertex, sampler: &mut Sampler, sink: &mut impl Sink) {
+    let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
+    if let Some(direct) = direct_against(walk.scene(), vertex, Lobes::NON_DELTA, u_light, u) {
+        let origin =
+            Origin { layer: LightLayer::Direct, technique: Technique::Direct, light: Some(direct.light) };
+        sink.add(origin, walk.throughput * direct.radiance);
+    }
+    let mut ray = *walk;
+    if ray.scatter_lobes(vertex, Lobes::NON_DELTA, sampler).is_none() {
+        return;
+    }
+    match ray.next_vertex() {
+        None => escape(&ray, sink),
+        Some(end) => {
+            sink.reached(&ray, &end);
+            if let Some(e) = emission_at(&ray, &end) {
+                add_emission(sink, &ray, PathClass::default(), &e);
+            }
+        }
+    }
+}
+
+impl Eye<'_> {
+    /// Light that photons bring to a D surface.
+    #[inline]
+    fn merge(&self, walk: &Walk<'_>, vertex: &Vertex, sink: &mut impl Sink) {
+        let Some(map) = self.map else { return };
+        let radius = self.radius.at(vertex.footprint);
+        // The events before, and the one here, count on the whole path.
+        let most = self.max_depth - walk.depth - 1;
+        let mut sums = [Lanes::ZERO; 3];
+        let count = merge_within(map, vertex, radius, KERNEL, |photon, radiance| {
+            let depth = u32::from(photon.depth());
+            if depth <= most {
+                sums[layer_of(depth, photon.flags())] += radiance;
+            }
+        });
+        let layers = [LightLayer::Direct, LightLayer::Caustic, LightLayer::Indirect];
+        for (layer, sum) in layers.into_iter().zip(sums) {
+            add(sink, layer, Technique::Merge, walk.throughput * sum);
+        }
+        if count > 0 {
+            sink.density(count as f32 / (std::f32::consts::PI * radius * radius));
+        }
+    }
+}
+
+/// Which of the layers E S* D L, E S* D S⁺ L and all others.
+#[inline]
+fn layer_of(depth: u32, flags: PhotonFlags) -> usize {
+    match depth {
+        0 => 0,
+        _ if flags.contains(PhotonFlags::CAUSTIC) => 1,
+        _ => 2,
+    }
+}
