@@ -21,6 +21,15 @@ pub enum FilmError {
     },
     /// This pass is in the film already.
     DuplicatePass(u64),
+    /// The name of a layer is empty, too long, taken, or has characters that files refuse.
+    LayerName(String),
+    /// Named layers that do not fit together.
+    Layers {
+        /// The film's.
+        expected: Vec<String>,
+        /// What was to be added; a pass knows their number alone, so its names are empty.
+        found: Vec<String>,
+    },
     /// More passes than the sums have room for ([`crate::Film::MAX_PASSES`]).
     TooManyPasses,
 }
@@ -41,6 +50,16 @@ impl fmt::Display for FilmError {
                 expected[0], expected[1], found[0], found[1]
             ),
             Self::DuplicatePass(pass) => write!(f, "pass {pass} is in the film already"),
+            Self::LayerName(name) => write!(
+                f,
+                "{name:?} cannot name a layer: it must be of 1 to 200 letters, digits, _ and -, and not taken"
+            ),
+            Self::Layers { expected, found } if found.iter().all(String::is_empty) => {
+                write!(f, "the film has {} named layers, the pass {}", expected.len(), found.len())
+            }
+            Self::Layers { expected, found } => {
+                write!(f, "named layers differ: [{}] and [{}]", expected.join(", "), found.join(", "))
+            }
             Self::TooManyPasses => write!(f, "a film holds at most {} passes", crate::Film::MAX_PASSES),
         }
     }

@@ -23,7 +23,8 @@ pub enum Precision {
 /// What an EXR file holds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExrOptions {
-    /// The layers; beauty, where listed, is the root layer R, G, B.
+    /// The layers; beauty, where listed, is the root layer R, G, B. Noise is left out of films of one pass, which know
+    /// none. The film's named layers are always written, as NAME.R, NAME.G, NAME.B.
     pub layers: Vec<Layer>,
     /// Precision of all layers but beauty and depth, which are 32-bit.
     pub precision: Precision,
@@ -55,7 +56,8 @@ pub fn write_exr(path: &Path, film: &Film, options: &ExrOptions) -> Result<(), O
 /// An empty picture, no layer, or an attribute's name that the format refuses.
 pub fn encode_exr(film: &Film, options: &ExrOptions) -> Result<Vec<u8>, String> {
     let mut channels = Vec::new();
-    for &layer in &options.layers {
+    let known = |layer: &&Layer| **layer != Layer::Noise || film.passes() >= 2;
+    for &layer in options.layers.iter().filter(known) {
         let precision = match layer {
             Layer::Beauty | Layer::Depth => Precision::F32,
             _ => options.precision,
@@ -64,6 +66,13 @@ pub fn encode_exr(film: &Film, options: &ExrOptions) -> Result<Vec<u8>, String> 
         for (i, name) in layer.channel_names().iter().enumerate() {
             let values = values.iter().skip(i).step_by(count).copied();
             channels.push(channel(name, values, precision));
+        }
+    }
+    for (index, name) in film.layer_names().iter().enumerate() {
+        let values = film.named_layer(index).unwrap_or_default();
+        for (c, letter) in ["R", "G", "B"].iter().enumerate() {
+            let values = values.iter().map(|p| p[c]);
+            channels.push(channel(&format!("{name}.{letter}"), values, options.precision));
         }
     }
     encode(film.width(), film.height(), channels, &options.metadata)

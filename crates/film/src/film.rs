@@ -1,17 +1,9 @@
 use std::ops::Range;
 
-use crate::fixed::{Fixed96, small_units, units};
-use crate::{FilmError, Layer, NonFinite, PassFilm, PixelSample};
-
-/// Bits after the point of the sums of albedos and normals.
-const SMALL_BITS: i32 = 36;
-/// Bits after the point of the sums of squared luminances.
-const SQUARE_BITS: i32 = 60;
-/// Greatest squared luminance that counts: 2⁴⁵, a luminance of 5.9·10⁶.
-const MAX_SQUARE: f32 = 35_184_372_088_832.0;
-
-/// Below this, the units of a squared luminance fit 64 bits.
-const SMALL_SQUARE: f32 = (1u64 << (62 - SQUARE_BITS)) as f32;
+use crate::fixed::Fixed96;
+use crate::named::{LayerSums, NamedLayers};
+use crate::sums::{SMALL_BITS, Sums, Unweighted, add_parts, add_radiance, to_f64, weight_of};
+use crate::{FilmError, Layer, NonFinite, PassFilm};
 
 /// A value that was kept out of a film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -29,12 +21,15 @@ pub struct FilmNonFinite {
 /// merging films made anywhere give the same bits. Each value is rounded once, by at most half a unit, when it is
 /// added.
 ///
-/// Memory: 192 bytes a pixel; 312 with a filter that has negative weights.
+/// Memory: 192 bytes a pixel; 312 with a filter that has negative weights; 36 (72) more for each named layer.
 ///
 /// Radiance with a weight w (mean 1) is estimated by ⟨wL⟩ − ⟨L⟩(⟨w⟩ − 1), angle brackets for means over passes: the
 /// known mean of w is a control variate, with ⟨L⟩ as its coefficient. Where w is always 1 this is the plain mean.
 /// Otherwise even surfaces come out even after one pass, nothing is divided by a sum of weights that may be 0, and the
 /// bias −Cov(L, w)/passes vanishes.
+///
+/// A film may have *named layers* beside those of [`Layer`]: colours that a pass gives for every pixel, summed,
+/// weighted and averaged like radiance; one for each technique, say, or each group of lights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {
     width: usize,
@@ -48,94 +43,7 @@ pub struct Film {
     max_weight: f32,
     nonfinite: Vec<FilmNonFinite>,
     nonfinite_count: u64,
-}
-
-/// Sums of one pixel.
-#[derive(Clone, Debug, Default, PartialEq)]
-struct Sums {
-    /// Σ (w · luminance)².
-    square: i128,
-    albedo: [i64; 3],
-    normal: [i64; 3],
-    /// Weighted direct, caustic, indirect.
-    radiance: [[Fixed96; 3]; 3],
-    photon_density: Fixed96,
-    /// Nearest distance; 0 for none yet.
-    depth: f32,
-}
-
-/// Sums of one pixel that signed weights make necessary.
-#[derive(Clone, Debug, Default, PartialEq)]
-struct Unweighted {
-    radiance: [[Fixed96; 3]; 3],
-    weight: Fixed96,
-}
-
-impl Sums {
-    fn add(&mut self, sample: &PixelSample) {
-        add_parts(&mut self.radiance, sample, sample.weight);
-        let luminance = sample.weight * color::luminance(sample.beauty());
-        self.square += square_units(luminance * luminance);
-        for i in 0..3 {
-            self.albedo[i] += small_units::<SMALL_BITS>(sample.albedo[i]);
-            self.normal[i] += small_units::<SMALL_BITS>(sample.normal[i]);
-        }
-        self.photon_density.add(sample.photon_density);
-        self.depth = nearer(self.depth, sample.depth);
-    }
-
-    fn add_sums(&mut self, other: &Self) {
-        self.square += other.square;
-        for i in 0..3 {
-            self.albedo[i] += other.albedo[i];
-            self.normal[i] += other.normal[i];
-        }
-        add_radiance(&mut self.radiance, &other.radiance);
-        self.photon_density.add_sum(other.photon_density);
-        self.depth = nearer(self.depth, other.depth);
-    }
-}
-
-/// A squared luminance in units of its sum.
-#[inline]
-fn square_units(square: f32) -> i128 {
-    if square < SMALL_SQUARE {
-        i128::from(small_units::<SQUARE_BITS>(square))
-    } else {
-        units(square.min(MAX_SQUARE), SQUARE_BITS)
-    }
-}
-
-/// The lesser distance, where 0 and +∞ stand for none.
-fn nearer(a: f32, b: f32) -> f32 {
-    match (a > 0.0, b > 0.0) {
-        (true, true) => a.min(b),
-        (true, false) => a,
-        _ => b,
-    }
-}
-
-fn add_parts(to: &mut [[Fixed96; 3]; 3], sample: &PixelSample, weight: f32) {
-    let parts = [sample.direct, sample.caustic, sample.indirect];
-    for (sum, part) in to.iter_mut().zip(parts) {
-        // Most passes leave most parts of a pixel black.
-        if part == [0.0; 3] {
-            continue;
-        }
-        for (s, v) in sum.iter_mut().zip(part) {
-            s.add(weight * v);
-        }
-    }
-}
-
-fn add_radiance(to: &mut [[Fixed96; 3]; 3], from: &[[Fixed96; 3]; 3]) {
-    for (t, f) in to.iter_mut().flatten().zip(from.iter().flatten()) {
-        t.add_sum(*f);
-    }
-}
-
-fn to_f64(sum: &[Fixed96; 3]) -> [f64; 3] {
-    sum.map(Fixed96::to_f64)
+    layers: NamedLayers,
 }
 
 impl Film {
@@ -153,7 +61,18 @@ impl Film {
             max_weight: 1.0,
             nonfinite: Vec::new(),
             nonfinite_count: 0,
+            layers: NamedLayers::default(),
         }
+    }
+
+    /// A film without passes that has named layers, which every pass must bring ([`PassFilm::with_layers`]).
+    ///
+    /// # Errors
+    /// Where a name is empty, longer than 200 bytes, that of a [`Layer`], given twice, or has other characters than
+    /// letters, digits, `_` and `-`.
+    pub fn with_layers(width: usize, height: usize, names: Vec<String>) -> Result<Self, FilmError> {
+        let layers = NamedLayers::new(names, width * height)?;
+        Ok(Self { layers, ..Self::new(width, height) })
     }
 
     /// Pixels a row.
@@ -169,9 +88,11 @@ impl Film {
     /// Adds the pass of that index; passes may come in any order.
     ///
     /// # Errors
-    /// Where the sizes differ, the pass is in already, or the film is full; the film is then unchanged.
+    /// Where the sizes or the named layers differ, the pass is in already, or the film is full; the film is then
+    /// unchanged.
     pub fn add(&mut self, pass_index: u64, pass: &PassFilm) -> Result<(), FilmError> {
         self.check_size(pass.width(), pass.height())?;
+        self.layers.check_values(pass)?;
         let range = pass_index..pass_index.checked_add(1).ok_or(FilmError::TooManyPasses)?;
         let passes = self.united(std::slice::from_ref(&range))?;
         if pass.pixels().iter().any(|p| p.weight != 1.0) {
@@ -185,6 +106,7 @@ impl Film {
             sums.weight.add(sample.weight);
             self.max_weight = self.max_weight.max(sample.weight.abs());
         }
+        self.layers.add(pass);
         let listed = pass.nonfinite().iter().map(|&at| FilmNonFinite { pass: pass_index, at });
         self.report(listed, pass.nonfinite_count());
         self.passes = passes;
@@ -194,9 +116,10 @@ impl Film {
     /// Adds the passes of another film.
     ///
     /// # Errors
-    /// Where the sizes differ, a pass is in both, or there are too many; the film is then unchanged.
+    /// Where the sizes or the named layers differ, a pass is in both, or there are too many; the film is then unchanged.
     pub fn merge(&mut self, other: &Self) -> Result<(), FilmError> {
         self.check_size(other.width, other.height)?;
+        self.layers.check_names(&other.layers)?;
         let passes = self.united(&other.passes)?;
         if other.unweighted.is_empty() {
             if !self.unweighted.is_empty() {
@@ -217,6 +140,7 @@ impl Film {
         for (sums, from) in self.pixels.iter_mut().zip(&other.pixels) {
             sums.add_sums(from);
         }
+        self.layers.merge(&other.layers);
         self.report(other.nonfinite.iter().copied(), other.nonfinite_count);
         self.passes = passes;
         Ok(())
@@ -242,7 +166,8 @@ impl Film {
         self.nonfinite_count
     }
 
-    /// A layer, row by row from the top, [`Layer::channels`] values a pixel; 0 before the first pass (depth: +∞).
+    /// A layer, row by row from the top, [`Layer::channels`] values a pixel; 0 before the first pass (depth: +∞;
+    /// noise: 0 before the second).
     pub fn layer(&self, layer: Layer) -> Vec<f32> {
         let scale = 1.0 / self.passes().max(1) as f64;
         let small = scale * (0.5f64).powi(SMALL_BITS);
@@ -256,46 +181,32 @@ impl Film {
                 Layer::Albedo => out.extend(p.albedo.map(|v| (v as f64 * small) as f32)),
                 Layer::Normal => out.extend(p.normal.map(|v| (v as f64 * small) as f32)),
                 Layer::Depth => out.push(if p.depth > 0.0 { p.depth } else { f32::INFINITY }),
+                Layer::Noise => return self.noise().unwrap_or_else(|| vec![0.0; self.pixels.len()]),
                 Layer::PhotonDensity => out.push((p.photon_density.to_f64() * scale) as f32),
             }
         }
         out
     }
 
+    /// Names of the named layers, in the order given.
+    pub fn layer_names(&self) -> &[String] {
+        self.layers.names()
+    }
+
+    /// A named layer by its place among [`layer_names`](Self::layer_names): linear Rec. 709, row by row; none beyond.
+    pub fn named_layer(&self, index: usize) -> Option<Vec<[f32; 3]>> {
+        let n = self.passes().max(1) as f64;
+        let (sums, plain) = self.layer_sums(index)?;
+        let colour = |(i, sum): (usize, &[Fixed96; 3])| {
+            let plain = plain.get(i).zip(self.unweighted.get(i));
+            estimate(to_f64(sum), plain.map(|(p, w)| (to_f64(p), w.weight.to_f64())), n).map(|v| v as f32)
+        };
+        Some(sums.iter().enumerate().map(colour).collect())
+    }
+
     /// [`Layer::Beauty`] as colours.
     pub fn beauty(&self) -> Vec<[f32; 3]> {
         (0..self.pixels.len()).map(|i| self.radiance(i, &[0, 1, 2]).map(|v| v as f32)).collect()
-    }
-
-    /// Standard error of the luminance of beauty at each pixel, from the spread of the passes; none below two
-    /// passes. Passes count as independent; with weights it is the error of the linearised estimate (see
-    /// [`Film`]), exact where all weights have one magnitude. Luminances above 5.9·10⁶ count as that, and differences
-    /// below 10⁻⁹ are not seen.
-    pub fn noise(&self) -> Option<Vec<f32>> {
-        let passes = self.passes();
-        if passes < 2 {
-            return None;
-        }
-        let n = passes as f64;
-        let luminance = |parts: &[[Fixed96; 3]; 3]| -> f64 {
-            parts.iter().map(|part| color::luminance_f64(to_f64(part))).sum()
-        };
-        let noise = self.pixels.iter().enumerate().map(|(i, sums)| {
-            let weighted = luminance(&sums.radiance);
-            let mut square = sums.square as f64 * (0.5f64).powi(SQUARE_BITS);
-            let mut mean = weighted / n;
-            if let Some(plain) = self.unweighted.get(i) {
-                // Σe² of e = wL − ⟨L⟩(w − 1), with w² = c² for each pass.
-                let (sum, weight) = (luminance(&plain.radiance), plain.weight.to_f64());
-                let c2 = f64::from(self.max_weight).powi(2);
-                let average = sum / n;
-                square +=
-                    average * (-2.0 * (c2 * sum - weighted) + average * ((c2 + 1.0) * n - 2.0 * weight));
-                mean -= average * (weight / n - 1.0);
-            }
-            ((square / n - mean * mean).max(0.0) / (n - 1.0)).sqrt() as f32
-        });
-        Some(noise.collect())
     }
 
     /// The estimate of the sum of some of the parts direct (0), caustic (1), indirect (2).
@@ -304,15 +215,42 @@ impl Film {
         let mut total = [0.0; 3];
         for &part in parts {
             let weighted = to_f64(&self.pixels[pixel].radiance[part]);
-            let correction = self.unweighted.get(pixel).map_or([0.0; 3], |plain| {
-                let excess = plain.weight.to_f64() / n - 1.0;
-                to_f64(&plain.radiance[part]).map(|v| v * excess)
-            });
-            for c in 0..3 {
-                total[c] += (weighted[c] - correction[c]) / n;
+            let plain = self.unweighted.get(pixel);
+            let plain = plain.map(|plain| (to_f64(&plain.radiance[part]), plain.weight.to_f64()));
+            for (t, v) in total.iter_mut().zip(estimate(weighted, plain, n)) {
+                *t += v;
             }
         }
         total
+    }
+
+    /// From parts that belong together: size, passes, sums with and without weights and the greatest weight, what was
+    /// kept out, named layers.
+    pub(crate) fn from_parts(
+        [width, height]: [usize; 2],
+        passes: Vec<Range<u64>>,
+        (pixels, unweighted, max_weight): (Vec<Sums>, Vec<Unweighted>, f32),
+        (nonfinite, nonfinite_count): (Vec<FilmNonFinite>, u64),
+        layers: NamedLayers,
+    ) -> Self {
+        Self { width, height, passes, pixels, unweighted, max_weight, nonfinite, nonfinite_count, layers }
+    }
+
+    pub(crate) fn sums(&self) -> &[Sums] {
+        &self.pixels
+    }
+
+    pub(crate) fn unweighted(&self) -> &[Unweighted] {
+        &self.unweighted
+    }
+
+    /// Sums of a named layer, weighted and not (see [`NamedLayers::sums`]).
+    pub(crate) fn layer_sums(&self, index: usize) -> Option<LayerSums<'_>> {
+        self.layers.sums(index, self.pixels.len())
+    }
+
+    pub(crate) fn max_weight(&self) -> f32 {
+        self.max_weight
     }
 
     /// Starts to keep sums without weights, which so far equal the weighted ones.
@@ -321,6 +259,7 @@ impl Film {
             let weight = weight_of(self.passes());
             self.unweighted =
                 self.pixels.iter().map(|p| Unweighted { radiance: p.radiance, weight }).collect();
+            self.layers.split_weights();
         }
     }
 
@@ -358,172 +297,13 @@ impl Film {
     }
 }
 
-/// The sum of the weights of `passes` passes of weight 1.
-fn weight_of(passes: u64) -> Fixed96 {
-    let mut sum = Fixed96::default();
-    // At most 2²², which f32 holds exactly.
-    sum.add(passes as f32);
-    sum
+/// The mean of n passes from a weighted sum and, where weights differ, the sum without weights and that of weights
+/// (see [`Film`]).
+fn estimate(weighted: [f64; 3], plain: Option<([f64; 3], f64)>, n: f64) -> [f64; 3] {
+    let correction = plain.map_or([0.0; 3], |(sum, weight)| sum.map(|v| v * (weight / n - 1.0)));
+    std::array::from_fn(|c| (weighted[c] - correction[c]) / n)
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Samples that differ by pass and pixel; sign and size of the weight by pass.
-    fn pass(index: u64, weights: [f32; 2]) -> PassFilm {
-        let pixels = (0..12u64)
-            .map(|i| {
-                let h = (index * 12 + i + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-                let value = |k: u32| ((h >> (5 * k)) & 0x3ff) as f32 * 0.013 + 1e-4;
-                PixelSample {
-                    direct: [value(0), value(1), value(2)],
-                    caustic: [value(3) * 100.0, 0.0, value(4)],
-                    indirect: [value(5), value(6), value(7) * 1e-5],
-                    albedo: [0.1, 0.2, value(1) * 0.05],
-                    normal: [0.0, -1.0, value(2) * 0.01],
-                    depth: if i == 3 { f32::INFINITY } else { value(8) + 1.0 },
-                    photon_density: value(2) * 1e4,
-                    weight: weights[(h >> 60) as usize & 1],
-                }
-            })
-            .collect();
-        PassFilm::new(4, 3, pixels).unwrap()
-    }
-
-    fn film(order: impl IntoIterator<Item = u64>, weights: [f32; 2]) -> Film {
-        let mut film = Film::new(4, 3);
-        for i in order {
-            film.add(i, &pass(i, weights)).unwrap();
-        }
-        film
-    }
-
-    #[test]
-    fn any_order_and_any_split_give_the_same_film() {
-        for weights in [[1.0, 1.0], [1.3, -1.3]] {
-            let straight = film(0..20, weights);
-            assert_eq!(straight, film((0..20).rev(), weights));
-            let mut merged = film([7, 3, 19], weights);
-            merged.merge(&film((0..20).filter(|i| ![7, 3, 19].contains(i)), weights)).unwrap();
-            assert_eq!(straight, merged);
-            assert!(matches!(merged.pass_ranges(), [Range { start: 0, end: 20 }]));
-            assert_ne!(straight, film(0..19, weights));
-        }
-        // Passes without and with signed weights, merged both ways.
-        let (plain, signed) = (film(0..4, [1.0, 1.0]), film(4..6, [1.3, -1.3]));
-        let (mut a, mut b) = (plain.clone(), signed.clone());
-        a.merge(&signed).unwrap();
-        b.merge(&plain).unwrap();
-        assert_eq!(a, b);
-        assert_eq!(a.passes(), 6);
-    }
-
-    #[test]
-    fn layers_are_means_and_depth_the_least() {
-        let film = film(0..7, [1.0, 1.0]);
-        let passes: Vec<_> = (0..7).map(|i| pass(i, [1.0, 1.0])).collect();
-        let beauty = film.layer(Layer::Beauty);
-        assert_eq!(beauty, film.beauty().concat());
-        for pixel in 0..12 {
-            let samples: Vec<_> = passes.iter().map(|p| p.pixels()[pixel]).collect();
-            let mean =
-                |f: &dyn Fn(&PixelSample) -> f32| samples.iter().map(|s| f64::from(f(s))).sum::<f64>() / 7.0;
-            for c in 0..3 {
-                let expect = |value: f32, f: &dyn Fn(&PixelSample) -> f32| {
-                    let m = mean(f);
-                    assert!((f64::from(value) - m).abs() <= 1e-6 * m.abs() + 1e-11, "{value} {m}");
-                };
-                let at = |layer| film.layer(layer)[pixel * 3 + c];
-                expect(beauty[pixel * 3 + c], &|s| s.beauty()[c]);
-                expect(at(Layer::Direct), &|s| s.direct[c]);
-                expect(at(Layer::Caustic), &|s| s.caustic[c]);
-                expect(at(Layer::Indirect), &|s| s.indirect[c]);
-                expect(at(Layer::Albedo), &|s| s.albedo[c]);
-                expect(at(Layer::Normal), &|s| s.normal[c]);
-            }
-            let least = samples.iter().map(|s| s.depth).fold(f32::INFINITY, f32::min);
-            assert_eq!(film.layer(Layer::Depth)[pixel], least);
-        }
-        assert_eq!(film.layer(Layer::Depth)[3], f32::INFINITY);
-    }
-
-    #[test]
-    fn signed_weights_leave_even_surfaces_even() {
-        let mut film = Film::new(1, 1);
-        let sample = |weight| PixelSample { indirect: [0.5, 2.0, 0.25], weight, ..PixelSample::default() };
-        for (i, weight) in [-1.3, 1.3, 1.3, -1.3].into_iter().enumerate() {
-            film.add(i as u64, &PassFilm::new(1, 1, vec![sample(weight)]).unwrap()).unwrap();
-            for (v, e) in film.layer(Layer::Beauty).iter().zip([0.5, 2.0, 0.25]) {
-                assert!((v - e).abs() < 1e-6);
-            }
-        }
-        assert!(film.noise().unwrap()[0] < 1e-5);
-    }
-
-    #[test]
-    fn noise_is_the_standard_error() {
-        for weights in [[1.0, 1.0], [1.3, -1.3]] {
-            let film = film(0..9, weights);
-            let noise = film.noise().unwrap();
-            for (pixel, &noise) in noise.iter().enumerate() {
-                let samples: Vec<_> = (0..9)
-                    .map(|i| pass(i, weights).pixels()[pixel])
-                    .map(|s| (f64::from(s.weight), color::luminance_f64(s.beauty().map(f64::from))))
-                    .collect();
-                let average = samples.iter().map(|s| s.1).sum::<f64>() / 9.0;
-                let e: Vec<f64> = samples.iter().map(|(w, l)| w * l - average * (w - 1.0)).collect();
-                let mean = e.iter().sum::<f64>() / 9.0;
-                let variance = e.iter().map(|v| (v - mean) * (v - mean)).sum::<f64>() / 8.0;
-                let expected = (variance / 9.0).sqrt();
-                assert!((f64::from(noise) - expected).abs() < 1e-4 * expected, "{noise} {expected}");
-            }
-        }
-        assert_eq!(film(0..1, [1.0, 1.0]).noise(), None);
-    }
-
-    #[test]
-    fn refusals_leave_the_film_unchanged() {
-        let mut film = film(0..3, [1.0, 1.0]);
-        let before = film.clone();
-        assert_eq!(film.add(1, &pass(1, [1.0, 1.0])), Err(FilmError::DuplicatePass(1)));
-        assert_eq!(film.merge(&before), Err(FilmError::DuplicatePass(0)));
-        assert!(matches!(film.merge(&Film::new(3, 4)), Err(FilmError::Size { .. })));
-        assert_eq!(film.add(u64::MAX, &pass(9, [1.0, 1.0])), Err(FilmError::TooManyPasses));
-        assert_eq!(film, before);
-    }
-
-    #[test]
-    fn values_that_are_not_finite_stay_out_and_are_told() {
-        let mut pixels = vec![PixelSample { direct: [1.0; 3], ..PixelSample::default() }; 12];
-        pixels[2].direct[1] = f32::NAN;
-        pixels[5].caustic[0] = f32::INFINITY;
-        pixels[5].photon_density = f32::NAN;
-        pixels[7].weight = f32::NAN;
-        pixels[8].indirect[2] = 1e30;
-        let pass = PassFilm::new(4, 3, pixels).unwrap();
-        let found: Vec<_> = pass.nonfinite().iter().map(|n| (n.pixel, n.layer)).collect();
-        assert_eq!(
-            found,
-            [
-                (2, Layer::Direct),
-                (5, Layer::Caustic),
-                (5, Layer::PhotonDensity),
-                (7, Layer::Beauty),
-                (8, Layer::Indirect)
-            ]
-        );
-        let mut film = Film::new(4, 3);
-        film.add(3, &pass).unwrap();
-        assert_eq!((film.nonfinite_count(), film.nonfinite()[0].pass), (5, 3));
-        let beauty = film.beauty();
-        assert!(beauty.iter().flatten().all(|v| v.is_finite()));
-        assert_eq!((beauty[2], beauty[5], beauty[7], beauty[8]), ([0.0; 3], [1.0; 3], [0.0; 3], [1.0; 3]));
-    }
-
-    #[test]
-    fn memory_is_as_documented() {
-        assert_eq!((size_of::<Sums>(), size_of::<Unweighted>()), (192, 120));
-        assert_eq!(size_of::<PixelSample>(), 72);
-    }
-}
+#[path = "film_tests.rs"]
+mod tests;

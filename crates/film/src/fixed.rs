@@ -11,6 +11,18 @@ pub(crate) const MAX_VALUE: f32 = 8_589_934_592.0;
 pub(crate) struct Fixed96([u32; 3]);
 
 impl Fixed96 {
+    /// The sum's words, lowest first.
+    #[inline]
+    pub(crate) fn words(self) -> [u32; 3] {
+        self.0
+    }
+
+    /// From [`words`](Self::words).
+    #[inline]
+    pub(crate) fn from_words(words: [u32; 3]) -> Self {
+        Self(words)
+    }
+
     /// Adds `value`; a caller keeps its magnitude at or below [`MAX_VALUE`].
     #[inline]
     pub(crate) fn add(&mut self, value: f32) {
@@ -54,7 +66,7 @@ impl Fixed96 {
 
     #[inline]
     fn add_units(&mut self, units: i128) {
-        let sum = self.get() + units;
+        let sum = self.get().wrapping_add(units);
         self.0 = [sum as u32, (sum >> 32) as u32, (sum >> 64) as u32];
     }
 }

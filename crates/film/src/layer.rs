@@ -18,11 +18,13 @@ pub enum Layer {
     Depth,
     /// Photons per unit area that the estimates at this pixel found.
     PhotonDensity,
+    /// Standard error of the luminance of beauty ([`crate::Film::noise`]).
+    Noise,
 }
 
 impl Layer {
     /// All layers, in the order of files.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Beauty,
         Self::Direct,
         Self::Caustic,
@@ -31,6 +33,7 @@ impl Layer {
         Self::Normal,
         Self::Depth,
         Self::PhotonDensity,
+        Self::Noise,
     ];
 
     /// The name in files and on the command line.
@@ -44,6 +47,7 @@ impl Layer {
             Self::Normal => "normal",
             Self::Depth => "depth",
             Self::PhotonDensity => "photonDensity",
+            Self::Noise => "noise",
         }
     }
 
@@ -63,6 +67,7 @@ impl Layer {
             Self::Normal => &["normal.X", "normal.Y", "normal.Z"],
             Self::Depth => &["depth.Z"],
             Self::PhotonDensity => &["photonDensity.Y"],
+            Self::Noise => &["noise.Y"],
         }
     }
 
@@ -71,10 +76,10 @@ impl Layer {
         self.channel_names().len()
     }
 
-    /// Whether the layer is the mean over passes (depth is the least value instead, since a mean over an edge lies
-    /// on no surface).
+    /// Whether the layer is the mean over passes. Depth is the least value instead, since a mean over an edge lies
+    /// on no surface; noise is of the film as a whole.
     pub const fn is_averaged(self) -> bool {
-        !matches!(self, Self::Depth)
+        !matches!(self, Self::Depth | Self::Noise)
     }
 
     /// Whether the signed weights of the pixel filter apply (radiance), or every pass counts alike (the others).

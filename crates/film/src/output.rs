@@ -1,7 +1,9 @@
 use std::fmt;
-use std::fs;
-use std::io::{self, Write};
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
+
+use crate::unfinished::Unfinished;
 
 /// Why a file could not be written, with its path.
 #[derive(Debug)]
@@ -23,6 +25,8 @@ pub enum OutputErrorKind {
     PermissionDenied,
     /// No space is left.
     DiskFull,
+    /// A limit of the system on the size of files is reached.
+    TooLarge,
     /// The picture can't be expressed in the format; the text says why.
     Encoding(String),
     /// Another error of the system.
@@ -34,12 +38,13 @@ impl OutputError {
         Self { path: path.to_owned(), kind }
     }
 
-    fn from_io(path: &Path, error: io::Error) -> Self {
+    pub(crate) fn from_io(path: &Path, error: io::Error) -> Self {
         let kind = match error.kind() {
             io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
                 OutputErrorKind::PermissionDenied
             }
             io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => OutputErrorKind::DiskFull,
+            io::ErrorKind::FileTooLarge => OutputErrorKind::TooLarge,
             io::ErrorKind::IsADirectory => OutputErrorKind::IsFolder,
             io::ErrorKind::NotFound => OutputErrorKind::MissingFolder(folder_of(path).to_owned()),
             _ => OutputErrorKind::Io(error),
@@ -69,6 +74,9 @@ impl OutputError {
                 "change the permissions of the file or its folder, or write elsewhere".into()
             }
             OutputErrorKind::DiskFull => "free some space, or write to another disk".into(),
+            OutputErrorKind::TooLarge => {
+                "raise the limit (ulimit -f), or write to a file system that takes larger files".into()
+            }
             OutputErrorKind::Encoding(_) => "write another format or a smaller picture".into(),
             OutputErrorKind::Io(_) => "check the disk, or write elsewhere".into(),
         }
@@ -86,6 +94,7 @@ impl fmt::Display for OutputError {
             }
             OutputErrorKind::PermissionDenied => write!(f, "permission denied"),
             OutputErrorKind::DiskFull => write!(f, "no space is left on the disk"),
+            OutputErrorKind::TooLarge => write!(f, "the system takes no file of that size"),
             OutputErrorKind::Encoding(why) => write!(f, "{why}"),
             OutputErrorKind::Io(error) => write!(f, "{error}"),
         }
@@ -107,7 +116,7 @@ impl std::error::Error for OutputError {
 /// The reason why not. A file that exists and is marked read-only counts as protected.
 pub fn check_writable(path: &Path) -> Result<(), OutputError> {
     check_place(path)?;
-    temporary(path).map(drop)
+    Unfinished::new(path).map(drop)
 }
 
 /// Writes a file so that `path` holds either what it held before or all of `bytes`: into a temporary file of the same
@@ -116,17 +125,31 @@ pub fn check_writable(path: &Path) -> Result<(), OutputError> {
 /// # Errors
 /// As [`check_writable`], and where writing fails on the way.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
+    write_atomically_with(path, |out| out.write_all(bytes)).map(drop)
+}
+
+/// [`write_atomically`] of what `content` writes, piece by piece; the size of the file in bytes.
+///
+/// # Errors
+/// As [`write_atomically`].
+pub fn write_atomically_with(
+    path: &Path,
+    content: impl FnOnce(&mut BufWriter<&File>) -> io::Result<()>,
+) -> Result<u64, OutputError> {
     check_place(path)?;
-    let mut file = temporary(path)?;
+    let (unfinished, file) = Unfinished::new(path)?;
     let io_error = |e| OutputError::from_io(path, e);
-    file.write_all(bytes).map_err(io_error)?;
-    file.as_file().sync_all().map_err(io_error)?;
-    file.persist(path).map_err(|e| OutputError::from_io(path, e.error))?;
+    let mut out = BufWriter::with_capacity(1 << 20, &file);
+    content(&mut out).and_then(|()| out.flush()).map_err(io_error)?;
+    drop(out);
+    file.sync_all().map_err(io_error)?;
+    let size = file.metadata().map_err(io_error)?.len();
+    unfinished.persist(path).map_err(io_error)?;
     // The rename itself reaches the disk with the folder; not every system lets a folder be opened for that.
-    if let Ok(folder) = fs::File::open(folder_of(path)) {
+    if let Ok(folder) = File::open(folder_of(path)) {
         folder.sync_all().ok();
     }
-    Ok(())
+    Ok(size)
 }
 
 fn check_place(path: &Path) -> Result<(), OutputError> {
@@ -148,19 +171,7 @@ fn check_place(path: &Path) -> Result<(), OutputError> {
     }
 }
 
-fn temporary(path: &Path) -> Result<tempfile::NamedTempFile, OutputError> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".nephroid-").suffix(".part");
-    #[cfg(unix)]
-    {
-        // As any new file: readable as the user's mask allows.
-        use std::os::unix::fs::PermissionsExt;
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    builder.tempfile_in(folder_of(path)).map_err(|e| OutputError::from_io(path, e))
-}
-
-fn folder_of(path: &Path) -> &Path {
+pub(crate) fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),

@@ -105,7 +105,7 @@ pub struct NonFinite {
     pub layer: Layer,
 }
 
-/// One pass's contribution: one sample a pixel, 72 bytes each.
+/// One pass's contribution: one sample a pixel, 72 bytes each, and 12 for each named layer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PassFilm {
     width: usize,
@@ -113,6 +113,7 @@ pub struct PassFilm {
     pixels: Vec<PixelSample>,
     nonfinite: Vec<NonFinite>,
     nonfinite_count: u64,
+    layers: Vec<[f32; 3]>,
 }
 
 impl PassFilm {
@@ -139,7 +140,38 @@ impl PassFilm {
                 }
             }
         }
-        Ok(Self { width, height, pixels, nonfinite, nonfinite_count })
+        Ok(Self { width, height, pixels, nonfinite, nonfinite_count, layers: Vec::new() })
+    }
+
+    /// Adds named layers: linear Rec. 709 before the filter's weight, layer by layer, each row by row. Values that a
+    /// film cannot hold become 0 and count as kept out of beauty.
+    ///
+    /// # Errors
+    /// [`FilmError::Size`] where there is no whole number of layers.
+    pub fn with_layers(mut self, mut layers: Vec<[f32; 3]>) -> Result<Self, FilmError> {
+        let pixels = self.pixels.len();
+        if pixels == 0 || !layers.len().is_multiple_of(pixels) {
+            return Err(FilmError::Size { expected: [self.width, self.height], found: [layers.len(), 1] });
+        }
+        let mut wrong = Vec::new();
+        for (i, value) in layers.iter_mut().enumerate() {
+            let limit = MAX_VALUE / self.pixels[i % pixels].weight.abs().max(1.0);
+            if !value.iter().all(|v| v.abs() <= limit) {
+                *value = [0.0; 3];
+                wrong.push(NonFinite { pixel: (i % pixels) as u32, layer: Layer::Beauty });
+            }
+        }
+        self.nonfinite_count += wrong.len() as u64;
+        self.nonfinite.extend(wrong);
+        self.nonfinite.sort();
+        self.nonfinite.truncate(Self::NONFINITE_LISTED);
+        self.layers = layers;
+        Ok(self)
+    }
+
+    /// Values of the named layers, layer by layer, each row by row; empty without.
+    pub fn layers(&self) -> &[[f32; 3]] {
+        &self.layers
     }
 
     /// Pixels a row.
