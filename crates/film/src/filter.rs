@@ -185,6 +185,50 @@ impl Filter {
         (self.evaluate_axis(offset.x) * self.evaluate_axis(offset.y)) as f32
     }
 
+    /// Calls `f` with column, row and weight of each pixel of a film of that `size` whose filter reaches a point of the
+    /// film (in pixels; pixel (i, j) covers [i, i + 1) × [j, j + 1)): light that arrives there counts in it with that
+    /// weight, as radiance of a pixel does that was sampled with [`Self::sample`].
+    pub fn spread(&self, point: Vec2, size: [usize; 2], mut f: impl FnMut(usize, usize, f32)) {
+        // Pixels with |centre − point| ≤ radius.
+        let range = |x: f32, n: usize| {
+            let first = (x - self.radius - 0.5).ceil().max(0.0) as usize;
+            first..((x + self.radius + 0.5).floor().max(0.0) as usize).min(n)
+        };
+        let columns = range(point.x, size[0]);
+        let mut across = [0.0; Self::SPREAD];
+        let wide = columns.len() > Self::SPREAD;
+        let weight_of = |column: usize| self.evaluate_axis(point.x - (column as f32 + 0.5));
+        for (weight, column) in across.iter_mut().zip(columns.clone()) {
+            *weight = weight_of(column);
+        }
+        for row in range(point.y, size[1]) {
+            let down = self.evaluate_axis(point.y - (row as f32 + 0.5));
+            for (i, column) in columns.clone().enumerate() {
+                let across = if wide { weight_of(column) } else { across[i] };
+                let weight = (down * across) as f32;
+                if weight != 0.0 {
+                    f(column, row, weight);
+                }
+            }
+        }
+    }
+
+    /// Columns whose weights [`Self::spread`] keeps: those of a radius of 8.
+    const SPREAD: usize = 16;
+
+    /// Mean density, per square pixel, of the places that [`Self::sample`] gives, at such places: ∫f²/(∫|f|)². 1 for the
+    /// default box. The smaller it is, the more pixels share what lands on the film.
+    pub fn density(&self) -> f32 {
+        // Simpson's rule on each cell is exact for the square of a linear function.
+        let cell = |i: usize| {
+            let (a, b) = (self.f[i - 1], self.f[i]);
+            (self.x[i] - self.x[i - 1]) * (a * a + a * b + b * b) / 3.0
+        };
+        let half: f64 = (1..self.x.len()).map(cell).sum();
+        let axis = 2.0 * half / (self.mass * self.mass * f64::from(self.radius));
+        (axis * axis) as f32
+    }
+
     fn evaluate_axis(&self, x: f32) -> f64 {
         let t = (f64::from(x) / f64::from(self.radius)).abs();
         if t > 1.0 || t.is_nan() {
@@ -312,6 +356,30 @@ mod tests {
         }
         let least = Filter::new(FilterKind::Box, None).unwrap().sample([0.0, math::ONE_MINUS_EPSILON]).offset;
         assert_eq!((least.x, least.y.min(0.49999)), (-0.5, 0.49999));
+    }
+
+    #[test]
+    fn what_lands_on_the_film_is_spread_as_pixels_see_it() {
+        for filter in filters() {
+            // Every pixel that is reached, each with the value of the filter.
+            for point in [Vec2::new(9.3, 8.01), Vec2::new(10.0, 9.5), Vec2::new(0.2, 19.99)] {
+                let mut found = vec![0.0; 400];
+                filter.spread(point, [20, 20], |x, y, weight| found[y * 20 + x] += weight);
+                for (i, weight) in found.into_iter().enumerate() {
+                    let centre = Vec2::new((i % 20) as f32 + 0.5, (i / 20) as f32 + 0.5);
+                    assert_eq!(weight, filter.evaluate(point - centre), "{:?} {point} {i}", filter.kind);
+                }
+            }
+            // ∫f²: the mean of f, with sign, over samples of |f|.
+            let n = 10_000;
+            let mean = (0..n).map(|i| {
+                let sample = filter.sample([(i as f32 + 0.5) / n as f32, 0.5]);
+                filter.evaluate_axis(sample.offset.x).abs() / filter.mass
+            });
+            let axis = mean.sum::<f64>() / f64::from(n);
+            assert!((f64::from(filter.density()) / (axis * axis) - 1.0).abs() < 1e-3, "{:?}", filter.kind);
+        }
+        assert_eq!(Filter::new(FilterKind::Box, None).unwrap().density(), 1.0);
     }
 
     #[test]

@@ -12,6 +12,7 @@ mod radius;
 mod settings;
 mod sink;
 mod sppm;
+mod vcm;
 
 use film::{FilmError, PassFilm};
 use scene::Scene;
@@ -26,6 +27,7 @@ pub use settings::{
 };
 pub use sink::Technique;
 pub use sppm::Sppm;
+pub use vcm::Vcm;
 
 /// What sessions run. Object-safe: sessions meet it once a pass.
 pub trait Integrator: Send + Sync {
@@ -54,6 +56,7 @@ pub fn integrator(settings: &Settings) -> Box<dyn Integrator> {
     match settings.kind {
         IntegratorKind::Path | IntegratorKind::Auto => Box::new(Path::new(settings.clone())),
         IntegratorKind::Sppm => Box::new(Sppm::new(settings.clone())),
-        IntegratorKind::PhotonMap | IntegratorKind::Vcm => Box::new(PhotonMapper::new(settings.clone())),
+        IntegratorKind::Vcm => Box::new(Vcm::new(settings.clone())),
+        IntegratorKind::PhotonMap => Box::new(PhotonMapper::new(settings.clone())),
     }
 }

@@ -1,11 +1,15 @@
 use photons::{Photon, PhotonMap};
 use transport::PhotonBalance;
 
+use crate::vcm::{LightSide, LightTrace};
+
 /// Photons before their maps are built.
 #[derive(Clone, Debug, Default)]
 pub struct TracedPhotons {
     pub(crate) global: Vec<Photon>,
     pub(crate) caustic: Vec<Photon>,
+    /// What light paths of vertex connection and merging leave beside `global`.
+    pub(crate) light_trace: LightTrace,
     /// Median radius of lookups, in scene units, where it is known before the map is; else 0.
     pub(crate) typical_radius: f32,
     /// Energy balance of the global photons, in W.
@@ -25,6 +29,8 @@ pub struct Maps {
     pub(crate) irradiance: Option<PhotonMap>,
     /// Photons of one pass, for lookups within radii that pixels give.
     pub(crate) merging: Option<StoredMap>,
+    /// What is known of the photons of `merging` for vertex connection and merging, and its splats.
+    pub(crate) light_side: LightSide,
 }
 
 /// A map and the radii that fit it.

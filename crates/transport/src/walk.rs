@@ -35,6 +35,8 @@ pub struct Walk<'s> {
     eta_scale: f32,
     /// Where the last scattering happened and how, for weights of what the ray meets.
     pub(crate) last: Option<Scattered>,
+    /// Whether no invisible boundary was passed since the last vertex.
+    clear: bool,
 }
 
 /// A point that a walk reached.
@@ -84,6 +86,7 @@ impl<'s> Walk<'s> {
             spread: 0.0,
             eta_scale: 1.0,
             last: None,
+            clear: true,
         }
     }
 
@@ -108,6 +111,7 @@ impl<'s> Walk<'s> {
                 Some(Boundary::Interface { eta }) => eta,
                 Some(Boundary::Invisible) => {
                     // A shadow ray would have stopped here.
+                    self.clear = false;
                     if let Some(last) = &mut self.last {
                         last.lit = false;
                     }
@@ -194,6 +198,7 @@ impl<'s> Walk<'s> {
             self.spread = self.spread.max(0.05);
         }
         self.depth += 1;
+        self.clear = true;
         self.ray = vertex.hit.spawn_ray(wi);
     }
 
@@ -222,6 +227,18 @@ impl<'s> Walk<'s> {
     #[inline]
     pub fn scene(&self) -> &'s Scene {
         self.scene
+    }
+
+    /// Which way it goes.
+    #[inline]
+    pub(crate) fn mode(&self) -> TransportMode {
+        self.mode
+    }
+
+    /// Whether a shadow ray would see along the last edge of the walk what the walk has met at its end.
+    #[inline]
+    pub fn is_clear(&self) -> bool {
+        self.clear
     }
 
     /// The last scattering event; `None` before the first.

@@ -1,0 +1,172 @@
+//! The eye paths of a pass.
+
+use bsdf::Lobes;
+use math::PI;
+use photons::Kernel;
+use sampling::{Domain, Sampler, Streams};
+use transport::{
+    Emission, LightVertex, PathClass, PathVertex, Subpath, connect, connect_light, emission_against_all,
+    escape_against_all, merge_within, trace_light_path,
+};
+
+use super::{Merging, Plan};
+use crate::Maps;
+use crate::VcmTechniques;
+use crate::pixels::{CameraPath, Tracer};
+use crate::sink::{Origin, Sink, Technique};
+
+pub(super) struct Eye<'a> {
+    plan: Plan,
+    maps: &'a Maps,
+    light_paths: Streams,
+}
+
+/// What an eye path knows of itself at a vertex.
+struct Reached<'v> {
+    at: &'v PathVertex,
+    /// Events before, the one at the vertex included.
+    class: PathClass,
+    radius: f32,
+    eta: f64,
+}
+
+impl<'a> Eye<'a> {
+    pub fn new(plan: Plan, maps: &'a Maps, seed: u64, pass: u64) -> Self {
+        Self { plan, maps, light_paths: Streams::new(seed, pass, Domain::LightPath) }
+    }
+}
+
+impl Tracer for Eye<'_> {
+    #[inline]
+    fn trace<S: Sink>(&self, CameraPath { walk, mut sampler, .. }: CameraPath<'_>, sink: &mut S) {
+        let plan = &self.plan;
+        let ray = walk.ray;
+        let density_w = f64::from(walk.scene().camera().pdf_we_w(ray.origin, ray.direction));
+        let mut path = Subpath::from_camera(walk, density_w * plan.film_density, plan.connections);
+        let mut class = PathClass::default();
+        // Radius and η are those of the first vertex that is not specular.
+        let mut merging: Option<(f32, f64)> = None;
+        let mut lights = JoinedPath::default();
+        loop {
+            let vertex = path.next_vertex();
+            let eta = merging.map_or(0.0, |(_, eta)| eta);
+            let Some(at) = vertex else {
+                for e in escape_against_all(path.scene(), path.end(), eta) {
+                    self.add_emission(&path, class, &e, sink);
+                }
+                return;
+            };
+            sink.reached(&path.walk, &at.vertex);
+            if path.walk.depth == 0 {
+                sink.features(&at.vertex);
+            }
+            if let Some(e) = emission_against_all(path.scene(), &path.end(), &at.vertex, eta) {
+                self.add_emission(&path, class, &e, sink);
+            }
+            if path.walk.depth >= plan.max_depth || plan.techniques == VcmTechniques::LightTracing {
+                return;
+            }
+            let specular = !at.vertex.bsdf.has_diffuse();
+            let mut lobes = Lobes::ALL;
+            if !at.vertex.bsdf.is_delta_only() {
+                let (radius, eta) = *merging.get_or_insert_with(|| {
+                    let radius = plan.radius.at(at.vertex.footprint);
+                    (radius, plan.eta(radius))
+                });
+                let reached = Reached { at: &at, class: class.scattered(specular), radius, eta };
+                if plan.connections == transport::Connections::Made {
+                    self.join(&path, &reached, &mut lights, &mut sampler, sink);
+                }
+                if plan.merging != Merging::Never {
+                    self.merge(&path, &reached, sink);
+                }
+                if plan.merging == Merging::First {
+                    lobes = Lobes::DELTA;
+                }
+            }
+            let Some(scattered) = path.scatter(&at, lobes, &mut sampler) else { return };
+            class = class.scattered(specular || scattered.lobes.contains(Lobes::SPECULAR));
+        }
+    }
+}
+
+/// The light path that an eye path is joined to, traced when it is needed.
+#[derive(Default)]
+struct JoinedPath {
+    vertices: Option<Vec<LightVertex>>,
+}
+
+impl Eye<'_> {
+    /// Light that the eye path met. What the camera sees straight away nothing else has found.
+    #[inline]
+    fn add_emission(&self, path: &Subpath<'_>, class: PathClass, e: &Emission, sink: &mut impl Sink) {
+        let weight = if path.walk.depth == 0 { 1.0 } else { e.weight };
+        let origin = Origin { layer: class.layer(), technique: Technique::Emission, light: Some(e.light) };
+        sink.add(origin, path.walk.throughput * e.radiance * weight);
+    }
+
+    /// Light sampling, and connections with the vertices of one light path.
+    #[inline]
+    fn join(
+        &self,
+        path: &Subpath<'_>,
+        here: &Reached<'_>,
+        lights: &mut JoinedPath,
+        sampler: &mut Sampler,
+        sink: &mut impl Sink,
+    ) {
+        let (scene, walk) = (path.scene(), &path.walk);
+        if let Some(direct) = connect_light(scene, here.at, here.eta, sampler) {
+            let origin =
+                Origin { layer: here.class.layer(), technique: Technique::Direct, light: Some(direct.light) };
+            sink.add(origin, walk.throughput * direct.radiance);
+        }
+        let vertices = lights.vertices.get_or_insert_with(|| {
+            // Any of them, whatever the pixel.
+            let index = (u64::from(sampler.next_u32()) * self.plan.count) >> 32;
+            let mut vertices = Vec::with_capacity(8);
+            let mut stream = self.light_paths.path(index);
+            let depth = self.plan.max_depth - walk.depth - 1;
+            trace_light_path(scene, depth, self.plan.connections, &mut stream, |v| vertices.push(*v));
+            vertices
+        });
+        for light in vertices.iter() {
+            // Both ends scatter.
+            if walk.depth + light.depth + 2 > self.plan.max_depth || !light.flux.is_finite() {
+                break;
+            }
+            if let Some(radiance) = connect(scene, here.at, light, here.eta) {
+                let specular = !light.at.vertex.bsdf.has_diffuse();
+                let layer = light.class.scattered(specular).after(here.class).layer();
+                let origin = Origin { layer, technique: Technique::Connect, light: Some(light.light) };
+                sink.add(origin, walk.throughput * radiance);
+            }
+        }
+    }
+
+    /// Light that photons bring.
+    #[inline]
+    fn merge(&self, path: &Subpath<'_>, here: &Reached<'_>, sink: &mut impl Sink) {
+        let Some(stored) = &self.maps.merging else { return };
+        let Reached { at, class, radius, eta } = *here;
+        let paths = &self.maps.light_side.paths;
+        let most = self.plan.max_depth - path.walk.depth - 1;
+        let weigher = transport::MergingWeights::new(at, eta);
+        let count = merge_within(&stored.map, &at.vertex, radius, Kernel::Constant, |photon, radiance| {
+            let light = &paths[photon.slot as usize];
+            if u32::from(light.depth) > most {
+                return;
+            }
+            let weight = match self.plan.merging {
+                Merging::First => 1.0,
+                _ => weigher.weight(&light.mis, photon.direction()),
+            };
+            let layer = light.class.after(class).layer();
+            let origin = Origin { layer, technique: Technique::Merge, light: Some(light.light) };
+            sink.add(origin, path.walk.throughput * radiance * weight);
+        });
+        if path.walk.depth == 0 && count > 0 {
+            sink.density(count as f32 / (PI * radius * radius));
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! What light paths leave on the film.
+
+use color::Lanes;
+use film::{Filter, PixelSample};
+use math::Vec2;
+use scene::LightId;
+use transport::LightLayer;
+
+use crate::sink::{Origin, Sink, Technique};
+
+/// A vertex of a light path seen by the camera.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Splat {
+    pub film_position: Vec2,
+    /// Of a pixel there, before the filter.
+    pub radiance: Lanes,
+    pub layer: LightLayer,
+    pub light: LightId,
+}
+
+/// Rows that are filled at once. Part of no result: each pixel adds its splats in index order.
+const BAND: usize = 16;
+
+/// Adds the splats to the samples of a film, each to all pixels whose filter reaches it. Samples are multiplied by their
+/// weight later (±c where the filter is negative somewhere), splats have theirs already.
+pub(super) fn add(splats: &[Splat], filter: &Filter, size: [usize; 2], samples: &mut [PixelSample]) {
+    if splats.is_empty() {
+        return;
+    }
+    let reach = filter.radius() + 0.5;
+    par::fill_chunks(samples, size[0] * BAND, |band, samples| {
+        let rows = band * BAND..band * BAND + samples.len() / size[0];
+        let (first, last) = (rows.start as f32 - reach, rows.end as f32 + reach);
+        for splat in splats.iter().filter(|s| (first..=last).contains(&s.film_position.y)) {
+            let origin =
+                Origin { layer: splat.layer, technique: Technique::Project, light: Some(splat.light) };
+            filter.spread(splat.film_position, size, |x, y, weight| {
+                if rows.contains(&y) {
+                    let sample = &mut samples[(y - rows.start) * size[0] + x];
+                    sample.add(origin, splat.radiance * (weight / sample.weight));
+                }
+            });
+        }
+    });
+}

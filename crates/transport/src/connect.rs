@@ -1,0 +1,142 @@
+use bsdf::TransportMode;
+use color::Lanes;
+use sampling::Sampler;
+use scene::light::LightHit;
+use scene::{LightId, Scene};
+
+use crate::mis::{End, connection_weight, direct_weight, emission_weight, merging_weight};
+use crate::project::reflected;
+use crate::subpath::{EyeEnd, PathVertex, density, geometric_cos, merging};
+use crate::{Direct, Emission, LightDensities, LightVertex, SubpathMis, Vertex};
+
+/// Joins a vertex of an eye path and one of a light path: weighted radiance toward `eye.vertex.wo`, not multiplied by the
+/// throughput of the eye path. `None`: none arrives.
+#[inline]
+pub fn connect(scene: &Scene, eye: &PathVertex, light: &LightVertex, eta: f64) -> Option<Lanes> {
+    let (x, y) = (&eye.vertex, &light.at.vertex);
+    let d = y.hit.p - x.hit.p;
+    let d2 = d.length_squared();
+    let wi = d / d2.sqrt();
+    if !wi.is_finite() {
+        return None;
+    }
+    let f_eye = x.bsdf.eval(x.wo, wi, TransportMode::Radiance);
+    if f_eye.is_zero() {
+        return None;
+    }
+    let f_light = reflected(y, -wi);
+    if f_light.is_zero() {
+        return None;
+    }
+    let cos_eye = x.bsdf.abs_cos(wi);
+    let over = 1.0 / f64::from(d2);
+    let light_end = End {
+        mis: light.at.mis,
+        merging: merging(&y.bsdf),
+        reverse: density(y, -wi, y.wo, TransportMode::Radiance),
+        reached: density(x, x.wo, wi, TransportMode::Radiance) * geometric_cos(y, wi) * over,
+    };
+    let eye_end = End {
+        mis: eye.mis,
+        merging: merging(&x.bsdf),
+        reverse: density(x, wi, x.wo, TransportMode::Importance),
+        reached: density(y, y.wo, -wi, TransportMode::Importance) * geometric_cos(x, wi) * over,
+    };
+    let weight = connection_weight(eta, &light_end, &eye_end);
+    let radiance = light.flux * f_light * f_eye * (cos_eye * weight / d2);
+    if radiance.is_zero() || scene.occluded(&x.hit.spawn_ray_to(y.hit.p, y.hit.p_error, facing(y, -wi))) {
+        return None;
+    }
+    Some(radiance)
+}
+
+/// The geometric normal on the side of `w`.
+fn facing(vertex: &Vertex, w: math::Vec3) -> math::Vec3 {
+    let ng = vertex.hit.ng;
+    if ng.dot(w) < 0.0 { -ng } else { ng }
+}
+
+/// Light sampling, weighted against all other techniques.
+#[inline]
+pub fn connect_light(scene: &Scene, eye: &PathVertex, eta: f64, sampler: &mut Sampler) -> Option<Direct> {
+    let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
+    let vertex = &eye.vertex;
+    let (index, pmf, u_pick) = scene.direct_picker().sample(u_light);
+    if pmf == 0.0 {
+        return None;
+    }
+    let light = LightId(index as u32);
+    let li = scene.light(light).sample_li(vertex.hit.p, vertex.hit.ng, u_pick, u)?;
+    let f = vertex.bsdf.eval(vertex.wo, li.wi, TransportMode::Radiance);
+    if f.is_zero() || li.radiance.is_zero() {
+        return None;
+    }
+    let found = LightDensities::of_direct(scene, light, pmf, &li);
+    let forward = density(vertex, vertex.wo, li.wi, TransportMode::Radiance);
+    let end = End {
+        mis: eye.mis,
+        merging: merging(&vertex.bsdf),
+        reverse: density(vertex, li.wi, vertex.wo, TransportMode::Importance),
+        reached: found.emitted / found.direct * geometric_cos(vertex, li.wi),
+    };
+    let weight = direct_weight(eta, forward * found.cos / found.direct, &end);
+    let ray = if li.distance.is_finite() {
+        vertex.hit.spawn_ray_to(li.p, li.p_error, li.n)
+    } else {
+        vertex.hit.spawn_ray(li.wi)
+    };
+    if scene.occluded(&ray) {
+        return None;
+    }
+    let factor = vertex.bsdf.abs_cos(li.wi) * weight / (pmf * li.pdf_w);
+    Some(Direct { light, radiance: f * li.radiance * factor })
+}
+
+/// The light that the surface at `vertex` is, seen from the eye path's last vertex.
+pub fn emission_against_all(scene: &Scene, end: &EyeEnd, vertex: &Vertex, eta: f64) -> Option<Emission> {
+    let light = vertex.hit.light?;
+    let hit = LightHit { p: vertex.hit.p, ng: vertex.hit.authored_ng(), prim: vertex.hit.prim };
+    let radiance = scene.light(light).emitted(hit.ng, vertex.wo);
+    let weight = weight_of(scene, light, end, Some(hit), eta);
+    (!radiance.is_zero()).then_some(Emission { light, radiance, weight })
+}
+
+/// The lights at infinity that an eye path sees on leaving the scene.
+pub fn escape_against_all(scene: &Scene, end: EyeEnd, eta: f64) -> impl Iterator<Item = Emission> {
+    scene.environments().iter().filter_map(move |&light| {
+        let radiance = scene.light(light).escaped(end.direction);
+        (!radiance.is_zero()).then(|| Emission {
+            light,
+            radiance,
+            weight: weight_of(scene, light, &end, None, eta),
+        })
+    })
+}
+
+fn weight_of(scene: &Scene, light: LightId, end: &EyeEnd, hit: Option<LightHit>, eta: f64) -> f32 {
+    let found = LightDensities::of_end(scene, light, end, hit);
+    emission_weight(eta, &end.leaving, found.direct / found.cos, found.emitted / found.cos)
+}
+
+/// Weights of the photons that are merged at one vertex of an eye path.
+#[derive(Clone, Copy, Debug)]
+pub struct MergingWeights<'v> {
+    eye: &'v PathVertex,
+    eta: f64,
+}
+
+impl<'v> MergingWeights<'v> {
+    /// For photons within a radius r, with η = π·r²·n.
+    pub fn new(eye: &'v PathVertex, eta: f64) -> Self {
+        Self { eye, eta }
+    }
+
+    /// Of a photon that arrived from `wi` with those numbers.
+    #[inline]
+    pub fn weight(&self, light: &SubpathMis, wi: math::Vec3) -> f32 {
+        let (vertex, mis) = (&self.eye.vertex, &self.eye.mis);
+        let light_reverse = density(vertex, vertex.wo, wi, TransportMode::Radiance);
+        let eye_reverse = density(vertex, wi, vertex.wo, TransportMode::Importance);
+        merging_weight(self.eta, light, light_reverse, mis, eye_reverse)
+    }
+}

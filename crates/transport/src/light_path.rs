@@ -1,0 +1,120 @@
+use bsdf::{Lobes, TransportMode};
+use color::Lanes;
+use math::{Ray, offset_ray_origin};
+use sampling::Sampler;
+use scene::{LightId, Scene};
+
+use crate::subpath::{PathVertex, Subpath};
+use crate::{Connections, PathClass, Walk};
+
+/// Which events a light path has had, as far as the layers of whole paths depend on it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LightClass {
+    /// D events, at most 2.
+    diffuse: u8,
+    /// Whether an S event lies before the first D event.
+    specular_first: bool,
+}
+
+impl LightClass {
+    /// After one more scattering event.
+    #[must_use]
+    pub fn scattered(self, specular: bool) -> Self {
+        match (specular, self.diffuse) {
+            (true, 0) => Self { specular_first: true, ..self },
+            (true, _) => self,
+            (false, n) => Self { diffuse: (n + 1).min(2), ..self },
+        }
+    }
+
+    /// The class of a whole path of which `eye` holds the events from the camera on, up to this light path.
+    pub fn after(self, eye: PathClass) -> PathClass {
+        let class = (0..self.diffuse).fold(eye, |class, _| class.scattered(false));
+        if self.specular_first { class.scattered(true) } else { class }
+    }
+}
+
+/// A vertex of a light path that something can be joined to.
+#[derive(Clone, Copy, Debug)]
+pub struct LightVertex {
+    /// The vertex.
+    pub at: PathVertex,
+    /// Flux in W that the path brings there, as if it were the only one.
+    pub flux: Lanes,
+    /// Scattering events before.
+    pub depth: u32,
+    /// Those events.
+    pub class: LightClass,
+    /// Where the path came from.
+    pub light: LightId,
+    /// Numbers for a point of the lens.
+    pub u_lens: [f32; 2],
+}
+
+/// Traces a light path of at most `max_depth` scattering events, the one at its end included, and calls `f` with each
+/// vertex that scatters by more than delta lobes. Lights are drawn by power.
+pub fn trace_light_path(
+    scene: &Scene,
+    max_depth: u32,
+    connections: Connections,
+    sampler: &mut Sampler,
+    mut f: impl FnMut(&LightVertex),
+) {
+    let Some((light, mut path)) = start(scene, connections, sampler) else { return };
+    let mut class = LightClass::default();
+    while let Some(at) = path.next_vertex() {
+        let bsdf = &at.vertex.bsdf;
+        if bsdf.lobes() == Lobes::NONE {
+            return;
+        }
+        let (flux, depth) = (path.walk.throughput, path.walk.depth);
+        if !bsdf.is_delta_only() {
+            f(&LightVertex { at, flux, depth, class, light, u_lens: sampler.next_2d() });
+        }
+        if depth + 1 >= max_depth {
+            return;
+        }
+        let Some(scattered) = path.scatter(&at, Lobes::ALL, sampler) else { return };
+        class = class.scattered(!bsdf.has_diffuse() || scattered.lobes.contains(Lobes::SPECULAR));
+    }
+}
+
+/// Φ = Le·cosθ / (p_light · p_area · p_direction) (Jensen 2001, §5.1).
+fn start<'s>(
+    scene: &'s Scene,
+    connections: Connections,
+    sampler: &mut Sampler,
+) -> Option<(LightId, Subpath<'s>)> {
+    let (u_light, u_pos, u_dir) = (sampler.next_1d(), sampler.next_2d(), sampler.next_2d());
+    let (index, pmf, u_pick) = scene.global_picker().sample(u_light);
+    if pmf == 0.0 {
+        return None;
+    }
+    let id = LightId(index as u32);
+    let le = scene.light(id).sample_le(u_pick, u_pos, u_dir)?;
+    let flux = le.radiance * (le.cos / (pmf * le.pdf_a * le.pdf_w));
+    if flux.is_zero() {
+        return None;
+    }
+    let ray = Ray::new(offset_ray_origin(le.p, le.p_error, le.n, le.w), le.w);
+    let walk = Walk::new(scene, TransportMode::Importance, ray, flux, scene.light_medium(id));
+    Some((id, Subpath::from_light(walk, id, le, connections)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn classes_of_joined_paths_are_those_of_whole_paths() {
+        for bits in 0..1u32 << 6 {
+            for split in 0..=6 {
+                let specular = |i: u32| bits >> i & 1 == 1;
+                let whole = (0..6).fold(PathClass::default(), |c, i| c.scattered(specular(i)));
+                let eye = (0..split).fold(PathClass::default(), |c, i| c.scattered(specular(i)));
+                let light = (split..6).rev().fold(LightClass::default(), |c, i| c.scattered(specular(i)));
+                assert_eq!(light.after(eye).layer(), whole.layer(), "{bits:06b} at {split}");
+            }
+        }
+    }
+}
