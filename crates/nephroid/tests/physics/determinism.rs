@@ -12,6 +12,7 @@ fn exr(integrator: IntegratorKind, seed: u64, threads: usize, passes: std::ops::
     desc.render = Render { integrator, seed, ..desc.render };
     desc.photon_map.photons = 9_000;
     desc.photon_map.caustic_photons = 9_000;
+    desc.sppm.photons = Some(9_000);
     // Scenes are compiled on as many threads, too.
     let scene = compile(&desc, threads).unwrap().scene;
     let job = Job { passes, ..Job::new(&desc, scene).unwrap() };
@@ -22,7 +23,7 @@ fn exr(integrator: IntegratorKind, seed: u64, threads: usize, passes: std::ops::
 
 #[test]
 fn exr_bytes_do_not_depend_on_threads_and_replay() {
-    for integrator in [PATH, PHOTON_MAP] {
+    for integrator in [PATH, PHOTON_MAP, IntegratorKind::Sppm] {
         let one = exr(integrator, 5, 1, 0..2);
         for threads in [2, 3, 7, 1] {
             assert!(one == exr(integrator, 5, threads, 0..2), "{integrator:?} on {threads} threads");

@@ -14,6 +14,7 @@ mod lamps;
 mod nephroid_curve;
 mod nested;
 mod oracle;
+mod sppm;
 mod support;
 mod traps;
 mod window;
