@@ -17,4 +17,5 @@ mod oracle;
 mod sppm;
 mod support;
 mod traps;
+mod vcm;
 mod window;
