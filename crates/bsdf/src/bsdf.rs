@@ -1,68 +1,11 @@
 use color::Lanes;
 use math::{Frame, Vec3};
 
-use crate::conductor::{self, Rough};
-use crate::dielectric;
 use crate::diffuse;
-use crate::fresnel::fresnel_conductor;
+use crate::glass::Side;
+use crate::kind::BsdfKind;
 use crate::lobes::{Lobes, TransportMode};
-use crate::mirror;
-use crate::null;
-use crate::phong::{self, Phong};
-use crate::plastic::{self, Plastic};
-
-/// What a surface is made of. Reflectances are factors in [0, 1] per lane; the caller keeps them there.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum BsdfKind {
-    /// Lambert.
-    Diffuse {
-        /// Reflectance.
-        albedo: Lanes,
-    },
-    /// Energy-normalised modified Phong (Lafortune & Willems 1994).
-    Phong {
-        /// Reflectance of the diffuse lobe, kd.
-        diffuse: Lanes,
-        /// Greatest reflectance of the specular lobe (at normal incidence), ks; kd + ks ≤ 1.
-        specular: Lanes,
-        /// n ≥ 0.
-        exponent: f32,
-    },
-    /// A perfect mirror, without Fresnel.
-    Mirror {
-        /// Reflectance.
-        color: Lanes,
-    },
-    /// A smooth dielectric interface.
-    Dielectric {
-        /// Index on the side of −ns over the index on the side of +ns, > 0. The caller resolves nested media.
-        eta: f32,
-        /// Factor of transmitted light; reflection is not tinted.
-        tint: Lanes,
-    },
-    /// A metal, seen alike from both sides.
-    Conductor {
-        /// Real part of the index, relative to that outside.
-        n: Lanes,
-        /// Imaginary part (extinction), relative to the index outside.
-        k: Lanes,
-        /// GGX roughness; 0: smooth (a delta lobe). Values in (0, 1e-4) are used as 1e-4.
-        alpha: f32,
-    },
-    /// A dielectric coat over a diffuse base, seen alike from both sides.
-    Plastic {
-        /// Reflectance of the base.
-        albedo: Lanes,
-        /// Index of the coat over that outside; moved into [1, 4].
-        eta: f32,
-        /// GGX roughness of the coat; 0: smooth (a delta lobe). Values in (0, 1e-4) are used as 1e-4.
-        alpha: f32,
-    },
-    /// No surface: light goes straight on.
-    Null,
-    /// Absorbs all light.
-    Black,
-}
+use crate::local::{self, Local};
 
 /// A scattering function at a point.
 #[derive(Clone, Copy, Debug)]
@@ -70,7 +13,7 @@ pub struct Bsdf {
     frame: Frame,
     ng: Vec3,
     kind: BsdfKind,
-    /// What the kind needs and can be had once per hit: `conductor::multiple`, `plastic::base`.
+    /// [`local::prepared`] of the kind.
     prepared: Lanes,
 }
 
@@ -91,6 +34,12 @@ pub struct BsdfSample {
 }
 
 impl BsdfSample {
+    /// A sample of a non-delta lobe, of value `f` and density `pdf_w` in all; `None` where the density is 0. `wi` is local.
+    #[inline]
+    pub(crate) fn of(wi: Vec3, f: Lanes, pdf_w: f32, lobes: Lobes, eta: f32) -> Option<Self> {
+        (pdf_w > 0.0).then(|| Self { wi, weight: f * (wi.z.abs() / pdf_w), pdf_w, lobes, eta })
+    }
+
     /// Whether it came from a delta lobe.
     #[inline]
     pub fn is_delta(&self) -> bool {
@@ -112,14 +61,17 @@ pub struct DeltaLobe {
 }
 
 impl Bsdf {
-    /// From a shading frame (z = shading normal) and the geometric normal, of either orientation: it is turned to
-    /// the hemisphere of the shading normal.
+    /// From a shading frame (z = shading normal, x = tangent, along which anisotropic kinds measure their first
+    /// roughness) and the geometric normal, of either orientation: it is turned to the hemisphere of the shading normal.
     #[inline]
     pub fn new(kind: BsdfKind, frame: Frame, ng: Vec3) -> Self {
         let prepared = match kind {
-            BsdfKind::Conductor { n, k, alpha } if alpha > 0.0 => conductor::multiple(n, k, alpha),
-            BsdfKind::Plastic { albedo, eta, alpha } => plastic::base(albedo, eta, alpha),
-            _ => Lanes::ZERO,
+            BsdfKind::Diffuse { .. }
+            | BsdfKind::Mirror { .. }
+            | BsdfKind::Dielectric { .. }
+            | BsdfKind::Null
+            | BsdfKind::Black => Lanes::ZERO,
+            _ => local::prepared(&kind),
         };
         let ng = if ng.dot(frame.z) < 0.0 { -ng } else { ng };
         Self { frame, ng, kind, prepared }
@@ -177,40 +129,24 @@ impl Bsdf {
     /// Properties of all its lobes together.
     #[inline]
     pub fn lobes(&self) -> Lobes {
-        match self.kind {
-            BsdfKind::Diffuse { .. } => diffuse::LOBES,
-            BsdfKind::Phong { .. } => diffuse::LOBES | phong::GLOSSY,
-            BsdfKind::Mirror { .. } => mirror::LOBES,
-            BsdfKind::Dielectric { .. } => dielectric::REFLECTION | dielectric::TRANSMISSION,
-            BsdfKind::Conductor { alpha: 0.0, .. } => mirror::LOBES,
-            BsdfKind::Conductor { .. } => conductor::GLOSSY,
-            BsdfKind::Plastic { alpha, .. } => diffuse::LOBES | Plastic::coat_lobes(alpha),
-            BsdfKind::Null => null::LOBES,
-            BsdfKind::Black => Lobes::NONE,
-        }
+        self.kind.lobes()
     }
 
     /// Whether it scatters, and by delta lobes alone.
     #[inline]
     pub fn is_delta_only(&self) -> bool {
-        match self.kind {
-            BsdfKind::Mirror { .. } | BsdfKind::Dielectric { .. } | BsdfKind::Null => true,
-            BsdfKind::Conductor { alpha, .. } => alpha == 0.0,
-            BsdfKind::Diffuse { .. }
-            | BsdfKind::Phong { .. }
-            | BsdfKind::Plastic { .. }
-            | BsdfKind::Black => false,
-        }
+        self.kind.is_delta_only()
     }
 
-    /// Whether it has a diffuse lobe, by kind: the surfaces on which photons are stored and looked up by the
-    /// two-pass map (diffuse, phong, plastic). Never a matter of roughness.
+    /// Whether photons are stored on it and looked up: [`BsdfKind::has_diffuse`].
     #[inline]
     pub fn has_diffuse(&self) -> bool {
-        matches!(self.kind, BsdfKind::Diffuse { .. } | BsdfKind::Phong { .. } | BsdfKind::Plastic { .. })
+        self.kind.has_diffuse()
     }
 
-    /// f(wo, wi) per steradian, without the cosine. Delta lobes contribute 0; symmetric in its arguments.
+    /// f(wo, wi) per steradian, without the cosine. Delta lobes contribute 0. Symmetric in its arguments for reflection and where
+    /// light is not refracted; for refraction f/η_i² is in [`TransportMode::Radiance`] and f/η_o² in the other mode, and
+    /// f(wo, wi) of one mode is f(wi, wo) of the other (Veach 1997, §5.2).
     #[inline]
     pub fn eval(&self, wo: Vec3, wi: Vec3, mode: TransportMode) -> Lanes {
         self.eval_lobes(wo, wi, Lobes::ALL, mode)
@@ -218,33 +154,26 @@ impl Bsdf {
 
     /// f of the admitted lobes alone.
     #[inline]
-    pub fn eval_lobes(&self, wo: Vec3, wi: Vec3, allowed: Lobes, _mode: TransportMode) -> Lanes {
-        if !self.reflects(wo, wi) {
-            return Lanes::ZERO;
-        }
+    pub fn eval_lobes(&self, wo: Vec3, wi: Vec3, allowed: Lobes, mode: TransportMode) -> Lanes {
         match self.kind {
-            BsdfKind::Diffuse { albedo } if allowed.contains(diffuse::LOBES) => diffuse::eval(albedo),
-            BsdfKind::Diffuse { .. } => Lanes::ZERO,
-            _ => self.eval_glossy(wo, wi, allowed),
+            BsdfKind::Diffuse { albedo } => {
+                if self.reflects(wo, wi) && allowed.contains(diffuse::LOBES) {
+                    diffuse::eval(albedo)
+                } else {
+                    Lanes::ZERO
+                }
+            }
+            _ => self.eval_others(wo, wi, allowed, mode),
         }
     }
 
     /// [`Self::eval_lobes`] of what is not Lambertian: like all such functions out of the way of loops over paths, and
     /// by value, so that a `Bsdf` that is only diffuse need not lie in memory.
     #[inline(never)]
-    fn eval_glossy(self, wo: Vec3, wi: Vec3, allowed: Lobes) -> Lanes {
-        match self.kind {
-            BsdfKind::Phong { .. } => {
-                let (wo, wi) = self.local_pair(wo, wi);
-                self.phong(allowed).eval(wo, wi)
-            }
-            BsdfKind::Conductor { n, k, alpha } if alpha > 0.0 && allowed.contains(conductor::GLOSSY) => {
-                let (wo, wi) = self.local_pair(wo, wi);
-                Rough { n, k, alpha, multiple: self.prepared }.eval(wo, wi)
-            }
-            BsdfKind::Plastic { eta, alpha, .. } => {
-                let (wo, wi) = self.local_pair(wo, wi);
-                self.plastic(eta, alpha).eval(wo, wi, allowed)
+    fn eval_others(self, wo: Vec3, wi: Vec3, allowed: Lobes, mode: TransportMode) -> Lanes {
+        match (self.side(wo), self.side(wi)) {
+            (Some(side), Some(_)) => {
+                self.seen_from(side).eval(self.local(wo, side), self.local(wi, side), allowed, mode)
             }
             _ => Lanes::ZERO,
         }
@@ -260,30 +189,23 @@ impl Bsdf {
     /// Density of the non-delta part of [`Self::sample_lobes`] under the same restriction.
     #[inline]
     pub fn pdf_w_lobes(&self, wo: Vec3, wi: Vec3, allowed: Lobes, _mode: TransportMode) -> f32 {
-        if !self.reflects(wo, wi) {
-            return 0.0;
-        }
         match self.kind {
-            BsdfKind::Diffuse { .. } if allowed.contains(diffuse::LOBES) => diffuse::pdf_w(self.abs_cos(wi)),
-            BsdfKind::Diffuse { .. } => 0.0,
-            _ => self.pdf_w_glossy(wo, wi, allowed),
+            BsdfKind::Diffuse { .. } => {
+                if self.reflects(wo, wi) && allowed.contains(diffuse::LOBES) {
+                    diffuse::pdf_w(self.abs_cos(wi))
+                } else {
+                    0.0
+                }
+            }
+            _ => self.pdf_w_others(wo, wi, allowed),
         }
     }
 
     #[inline(never)]
-    fn pdf_w_glossy(self, wo: Vec3, wi: Vec3, allowed: Lobes) -> f32 {
-        match self.kind {
-            BsdfKind::Phong { .. } => {
-                let (wo, wi) = self.local_pair(wo, wi);
-                self.phong(allowed).pdf_w(wo, wi)
-            }
-            BsdfKind::Conductor { n, k, alpha } if alpha > 0.0 && allowed.contains(conductor::GLOSSY) => {
-                let (wo, wi) = self.local_pair(wo, wi);
-                Rough { n, k, alpha, multiple: self.prepared }.pdf_w(wo, wi)
-            }
-            BsdfKind::Plastic { eta, alpha, .. } => {
-                let (wo, wi) = self.local_pair(wo, wi);
-                self.plastic(eta, alpha).pdf_w(wo, wi, allowed)
+    fn pdf_w_others(self, wo: Vec3, wi: Vec3, allowed: Lobes) -> f32 {
+        match (self.side(wo), self.side(wi)) {
+            (Some(side), Some(_)) => {
+                self.seen_from(side).pdf_w(self.local(wo, side), self.local(wi, side), allowed)
             }
             _ => 0.0,
         }
@@ -311,7 +233,7 @@ impl Bsdf {
         let drawn = match self.kind {
             BsdfKind::Diffuse { albedo } if allowed.contains(diffuse::LOBES) => diffuse::sample(albedo, u),
             BsdfKind::Diffuse { .. } | BsdfKind::Black => None,
-            _ => self.draw(self.local(wo, side), side, allowed, u_lobe, u, mode),
+            _ => self.sample_others(wo, side, allowed, u_lobe, u, mode),
         }?;
         let wi = self.world(drawn.wi, side);
         let valid = if drawn.lobes.contains(Lobes::REFLECTION) {
@@ -324,40 +246,22 @@ impl Bsdf {
 
     /// A local direction of what is not Lambertian.
     #[inline(never)]
-    fn draw(
+    fn sample_others(
         self,
-        local: Vec3,
+        wo: Vec3,
         side: f32,
         allowed: Lobes,
         u_lobe: f32,
         u: [f32; 2],
         mode: TransportMode,
     ) -> Option<BsdfSample> {
-        match self.kind {
-            BsdfKind::Diffuse { .. } | BsdfKind::Black => None,
-            BsdfKind::Phong { .. } => self.phong(allowed).sample(local, u_lobe, u),
-            BsdfKind::Conductor { n, k, alpha } if alpha > 0.0 => {
-                let rough = Rough { n, k, alpha, multiple: self.prepared };
-                if allowed.contains(conductor::GLOSSY) { rough.sample(local, u_lobe, u) } else { None }
-            }
-            BsdfKind::Plastic { eta, alpha, .. } => {
-                self.plastic(eta, alpha).sample(local, allowed, u_lobe, u)
-            }
-            BsdfKind::Dielectric { eta, tint } => {
-                let eta = if side > 0.0 { eta } else { 1.0 / eta };
-                dielectric::sample(local, eta, tint, allowed, u_lobe, mode).map(|(l, p)| l.drawn(p))
-            }
-            BsdfKind::Mirror { .. } | BsdfKind::Conductor { .. } | BsdfKind::Null => {
-                let [lobe, _] = self.local_delta_lobes(local, side, mode);
-                lobe.filter(|l| allowed.contains(l.lobes)).map(|l| l.drawn(1.0))
-            }
-        }
+        self.seen_from(side).sample(self.local(wo, side), allowed, u_lobe, u, mode)
     }
 
     /// All directions into which delta lobes scatter: at most one reflected (first) and one transmitted.
     pub fn delta_lobes(&self, wo: Vec3, mode: TransportMode) -> [Option<DeltaLobe>; 2] {
         let Some(side) = self.side(wo) else { return [None; 2] };
-        self.local_delta_lobes(self.local(wo, side), side, mode).map(|lobe| {
+        self.seen_from(side).delta_lobes(self.local(wo, side), mode).map(|lobe| {
             lobe.map(|l| DeltaLobe { wi: self.world(l.wi, side), ..l }).filter(|l| {
                 if l.lobes.contains(Lobes::REFLECTION) {
                     self.reflects(wo, l.wi)
@@ -368,68 +272,27 @@ impl Bsdf {
         })
     }
 
-    fn local_delta_lobes(&self, wo: Vec3, side: f32, mode: TransportMode) -> [Option<DeltaLobe>; 2] {
-        match self.kind {
-            BsdfKind::Mirror { color } => [Some(mirror::lobe(wo, color)), None],
-            BsdfKind::Dielectric { eta, tint } => {
-                dielectric::delta_lobes(wo, if side > 0.0 { eta } else { 1.0 / eta }, tint, mode)
-            }
-            BsdfKind::Conductor { n, k, alpha: 0.0 } => {
-                [Some(mirror::lobe(wo, fresnel_conductor(wo.z, n, k))), None]
-            }
-            BsdfKind::Plastic { eta, alpha, .. } if alpha == 0.0 => {
-                [Some(self.plastic(eta, alpha).delta_lobe(wo)), None]
-            }
-            BsdfKind::Null => [Some(null::lobe(wo)), None],
-            _ => [None; 2],
-        }
-    }
-
     /// Share of the flux from `wo` that is scattered at all, per lane: exact for diffuse, mirror, dielectric and
-    /// smooth kinds; within the tables' 1 % for rough plastic; for rough conductors with Fresnel taken at the
-    /// mirror's angle; for phong the upper bound kd + ks.
+    /// smooth kinds; within the tables' 1 % for rough plastic; for rough metals and glass with Fresnel taken at the
+    /// mirror's angle; for the principled model by its layers; for phong the upper bound kd + ks.
     #[inline]
     pub fn albedo(&self, wo: Vec3) -> Lanes {
         match self.kind {
             BsdfKind::Diffuse { albedo } => albedo,
-            _ => self.albedo_glossy(wo),
+            _ => self.albedo_others(wo),
         }
     }
 
     #[inline(never)]
-    fn albedo_glossy(self, wo: Vec3) -> Lanes {
-        let cos_o = self.abs_cos(wo);
-        match self.kind {
-            BsdfKind::Diffuse { albedo } => albedo,
-            BsdfKind::Phong { diffuse, specular, .. } => diffuse + specular,
-            BsdfKind::Mirror { color } => color,
-            BsdfKind::Dielectric { eta, tint } => {
-                let outside = self.frame.z.dot(wo) > 0.0;
-                dielectric::albedo(cos_o, if outside { eta } else { 1.0 / eta }, tint)
-            }
-            BsdfKind::Conductor { n, k, alpha: 0.0 } => fresnel_conductor(cos_o, n, k),
-            BsdfKind::Conductor { n, k, alpha } => {
-                Rough { n, k, alpha, multiple: self.prepared }.albedo(cos_o)
-            }
-            BsdfKind::Plastic { eta, alpha, .. } => self.plastic(eta, alpha).albedo(cos_o),
-            BsdfKind::Null => Lanes::ONE,
-            BsdfKind::Black => Lanes::ZERO,
-        }
+    fn albedo_others(self, wo: Vec3) -> Lanes {
+        let side = 1f32.copysign(self.frame.z.dot(wo));
+        self.seen_from(side).albedo(self.local(wo, side))
     }
 
     #[inline]
-    fn phong(&self, allowed: Lobes) -> Phong {
-        match self.kind {
-            BsdfKind::Phong { diffuse, specular, exponent } => {
-                Phong { diffuse, specular, exponent }.restricted(allowed)
-            }
-            _ => Phong { diffuse: Lanes::ZERO, specular: Lanes::ZERO, exponent: 0.0 },
-        }
-    }
-
-    #[inline]
-    fn plastic(&self, eta: f32, alpha: f32) -> Plastic {
-        Plastic { eta: plastic::clamped(eta), alpha, base: self.prepared }
+    fn seen_from(&self, side: f32) -> Local {
+        let side = if side > 0.0 { Side::Front } else { Side::Back };
+        Local { kind: self.kind, prepared: self.prepared, side }
     }
 
     /// +1 where `w` lies above both normals, −1 below both, `None` between or within them.
@@ -463,12 +326,6 @@ impl Bsdf {
     }
 
     #[inline]
-    fn local_pair(&self, wo: Vec3, wi: Vec3) -> (Vec3, Vec3) {
-        let side = 1f32.copysign(self.frame.z.dot(wo));
-        (self.local(wo, side), self.local(wi, side))
-    }
-
-    #[inline]
     fn world(&self, w: Vec3, side: f32) -> Vec3 {
         self.frame.to_world(Vec3::new(w.x, w.y, w.z * side))
     }
@@ -477,7 +334,7 @@ impl Bsdf {
 impl DeltaLobe {
     /// The sample that chooses this lobe with `probability`, by which the weight was divided already.
     #[inline]
-    fn drawn(self, probability: f32) -> BsdfSample {
+    pub(crate) fn drawn(self, probability: f32) -> BsdfSample {
         BsdfSample { wi: self.wi, weight: self.weight, pdf_w: probability, lobes: self.lobes, eta: self.eta }
     }
 }

@@ -1,6 +1,9 @@
 use std::array::from_fn;
 use std::sync::LazyLock;
 
+use math::Vec3;
+
+use crate::facets::{along, mean_along};
 use crate::fresnel::fresnel_dielectric;
 use crate::ggx_albedo::{
     ALPHA_NODES, MEAN_NODES, Place, Rows, TAU_NODES, alpha_node, for_each_sample, hemispherical_mean, lerp,
@@ -73,6 +76,16 @@ impl Table {
         let (e, fe) = Self::locate_eta(eta);
         let ratio = lerp(place.of(&self.ratios[e]), place.of(&self.ratios[e + 1]), fe);
         (ratio * fresnel_dielectric(mu, eta)).min(1.0)
+    }
+
+    /// E of an anisotropic surface: that of the isotropic one with the same slopes in the plane of incidence.
+    pub fn along(&self, w: Vec3, alpha: [f32; 2], eta: f32) -> f32 {
+        self.at(w.z.abs(), along(w, alpha), eta)
+    }
+
+    /// (1/π)∫ of [`Self::along`]·cos over the hemisphere.
+    pub fn mean_along(&self, alpha: [f32; 2], eta: f32) -> f32 {
+        mean_along(alpha, |alpha| self.mean(alpha, eta))
     }
 
     /// 2∫E(μ, α, η) μ dμ.

@@ -1,6 +1,8 @@
 use color::Lanes;
 use math::Vec4;
 
+use crate::reflectance::hemispherical_mean;
+
 /// Reflectance of a smooth dielectric interface for unpolarised light, exact (Born & Wolf 1999, §1.5.2).
 /// `cos_i` ≥ 0: cosine of the angle of incidence; `eta`: index of the far side over that of the near side.
 /// 1 under total internal reflection and at grazing incidence.
@@ -78,13 +80,7 @@ fn walsh(n: f64) -> f64 {
 /// 2∫F(μ) μ dμ of a conductor, per lane, by four-point Gauss–Legendre quadrature in μ: F is nearly linear in μ for
 /// metals, and the error stays below 2e-3 for the indices of metals.
 pub(crate) fn fresnel_conductor_mean(n: Lanes, k: Lanes) -> Lanes {
-    const NODES: [(f32, f32); 4] = [
-        (0.069_431_844, 0.173_927_42),
-        (0.330_009_48, 0.326_072_57),
-        (0.669_990_52, 0.326_072_57),
-        (0.930_568_16, 0.173_927_42),
-    ];
-    NODES.iter().fold(Lanes::ZERO, |sum, &(mu, w)| sum + fresnel_conductor(mu, n, k) * (2.0 * mu * w))
+    hemispherical_mean(|mu| fresnel_conductor(mu, n, k))
 }
 
 #[cfg(test)]

@@ -10,21 +10,43 @@
 //! through a surface whatever its shading normals; the rule is symmetric, so camera paths and photons agree.
 //! Opaque kinds scatter on the side of `wo`, front and back alike.
 
+mod beckmann;
 mod bsdf;
 mod coat_albedo;
+mod coat_loss;
+mod coated_conductor;
 mod conductor;
 mod cosine;
 mod dielectric;
 mod diffuse;
+mod facets;
+mod film;
 mod fresnel;
 mod ggx;
 mod ggx_albedo;
+mod ggx_albedo_xy;
+mod glass;
+mod glass_albedo;
+mod kind;
 mod lobes;
+mod local;
 mod mirror;
 mod null;
 mod phong;
 mod plastic;
+mod principled;
+mod reflectance;
+mod rough_diffuse;
+mod sheen;
+mod slab;
+mod thin;
+mod translucent;
 
-pub use bsdf::{Bsdf, BsdfKind, BsdfSample, DeltaLobe};
+pub use bsdf::{Bsdf, BsdfSample, DeltaLobe};
+pub use facets::Facets;
+pub use film::Film;
 pub use fresnel::{fresnel_conductor, fresnel_dielectric, fresnel_dielectric_mean};
+pub use kind::BsdfKind;
 pub use lobes::{Lobes, TransportMode};
+pub use plastic::{absorbing_coat_albedo, linear_plastic_albedo};
+pub use principled::{Interior, Principled, PrincipledParameters, disney_alpha, disney_eta, gltf_alpha};

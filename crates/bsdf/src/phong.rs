@@ -73,13 +73,6 @@ impl Phong {
         if wi.z <= 0.0 {
             return None;
         }
-        let pdf_w = self.pdf_w(wo, wi);
-        (pdf_w > 0.0).then(|| BsdfSample {
-            wi,
-            weight: self.eval(wo, wi) * (wi.z / pdf_w),
-            pdf_w,
-            lobes,
-            eta: 1.0,
-        })
+        BsdfSample::of(wi, self.eval(wo, wi), self.pdf_w(wo, wi), lobes, 1.0)
     }
 }

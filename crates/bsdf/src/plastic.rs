@@ -6,8 +6,8 @@ use crate::coat_albedo::{ETA_MAX, Table};
 use crate::conductor::GLOSSY;
 use crate::cosine::cosine_hemisphere;
 use crate::diffuse;
+use crate::facets::{Micro, half_reflected, is_smooth};
 use crate::fresnel::{fresnel_dielectric, fresnel_dielectric_mean};
-use crate::ggx::{Ggx, half};
 use crate::lobes::Lobes;
 use crate::mirror;
 
@@ -20,7 +20,11 @@ use crate::mirror;
 #[derive(Clone, Copy)]
 pub(crate) struct Plastic {
     pub eta: f32,
-    pub alpha: f32,
+    /// Roughness of the coat; [0, 0]: smooth.
+    pub alpha: [f32; 2],
+    pub micro: Micro,
+    /// Factor of what the coat reflects.
+    pub specular: Lanes,
     /// [`base`] of this surface.
     pub base: Lanes,
 }
@@ -32,45 +36,78 @@ pub(crate) fn clamped(eta: f32) -> f32 {
 }
 
 /// 1 − E_mean of the coat.
-fn one_minus_mean(eta: f32, alpha: f32) -> f32 {
-    1.0 - if alpha == 0.0 { fresnel_dielectric_mean(eta) } else { Table::get().mean(alpha, eta) }
+fn one_minus_mean(eta: f32, alpha: [f32; 2]) -> f32 {
+    1.0 - if is_smooth(alpha) { fresnel_dielectric_mean(eta) } else { Table::get().mean_along(alpha, eta) }
 }
 
 /// The constant factor of f_d.
-pub(crate) fn base(albedo: Lanes, eta: f32, alpha: f32) -> Lanes {
+pub(crate) fn base(albedo: Lanes, eta: f32, alpha: [f32; 2]) -> Lanes {
     let eta = clamped(eta);
     let f_in = fresnel_dielectric_mean(1.0 / eta);
     let scale = FRAC_1_PI * (1.0 - f_in) / one_minus_mean(eta, alpha);
     albedo.map(|a| a * scale / (1.0 - a * f_in))
 }
 
+/// The reflectance whose base, lit through the coat, scatters as one of reflectance `albedo` would if the light
+/// that the coat throws back onto the base kept no colour: a/(1 − F_in) instead of a/(1 − a·F_in), F_in the mean reflectance
+/// of a coat of index `eta` from within. For Mitsuba's `plastic` and `roughplastic` without `nonlinear`. Lanes stay in [0, 1].
+pub fn linear_plastic_albedo(albedo: Lanes, eta: f32) -> Lanes {
+    let f_in = fresnel_dielectric_mean(1.0 / clamped(eta));
+    albedo.map(|a| a / (1.0 - f_in + a * f_in))
+}
+
+/// The reflectance of a base under a clear coat of index `eta` that stands for one of reflectance `albedo` under a coat
+/// which absorbs: a crossing at the cosine μ (inside) lets e^(−`depth`/μ) pass, and of the reflections at the base the
+/// first `bounces` alone count. For pbrt-v4's `coateddiffuse`, where `depth` is `thickness` (0.01 unless given; it absorbs although
+/// `albedo` is 0) and a walk of `maxdepth` events meets the base about `maxdepth`/2 times. The absorption is
+/// averaged over directions. Lanes stay in [0, 1].
+pub fn absorbing_coat_albedo(albedo: Lanes, eta: f32, depth: f32, bounces: u32) -> Lanes {
+    const STEPS: u32 = 512;
+    let eta = clamped(eta);
+    let f_in = fresnel_dielectric_mean(1.0 / eta);
+    // Means of what leaves in one crossing, and of what comes back after two.
+    let (mut out, mut back) = (0.0, 0.0);
+    for i in 0..STEPS {
+        let mu = (i as f32 + 0.5) / STEPS as f32;
+        let f = fresnel_dielectric(mu, 1.0 / eta);
+        let pass = (-depth.max(0.0) / mu).exp();
+        out += 2.0 * mu * (1.0 - f) * pass / STEPS as f32;
+        back += 2.0 * mu * f * pass * pass / STEPS as f32;
+    }
+    let crossed = (out / (1.0 - f_in)).min(1.0);
+    albedo.map(|a| {
+        let round = a * back;
+        let sum = a * crossed * crossed * (1.0 - round.powf(bounces as f32)) / (1.0 - round);
+        (sum / (1.0 + sum * f_in)).clamp(0.0, 1.0)
+    })
+}
+
 impl Plastic {
     #[inline]
-    fn coat(&self, mu: f32) -> f32 {
-        if self.alpha == 0.0 {
-            fresnel_dielectric(mu, self.eta)
+    fn coat(&self, w: Vec3) -> f32 {
+        if is_smooth(self.alpha) {
+            fresnel_dielectric(w.z, self.eta)
         } else {
-            Table::get().at(mu, self.alpha, self.eta)
+            Table::get().along(w, self.alpha, self.eta)
         }
     }
 
     /// Lobe of the coat.
     #[inline]
-    pub fn coat_lobes(alpha: f32) -> Lobes {
-        if alpha == 0.0 { mirror::LOBES } else { GLOSSY }
+    pub fn coat_lobes(alpha: [f32; 2]) -> Lobes {
+        if is_smooth(alpha) { mirror::LOBES } else { GLOSSY }
     }
 
     #[inline]
     pub fn eval(&self, wo: Vec3, wi: Vec3, allowed: Lobes) -> Lanes {
         let mut f = Lanes::ZERO;
         if allowed.contains(diffuse::LOBES) {
-            f += self.base * ((1.0 - self.coat(wo.z)) * (1.0 - self.coat(wi.z)));
+            f += self.base * ((1.0 - self.coat(wo)) * (1.0 - self.coat(wi)));
         }
-        if self.alpha > 0.0 && allowed.contains(GLOSSY) {
-            let ggx = Ggx::new(self.alpha);
-            let h = half(wo, wi);
+        if !is_smooth(self.alpha) && allowed.contains(GLOSSY) {
+            let h = half_reflected(wo, wi);
             let fresnel = fresnel_dielectric(wo.dot(h), self.eta);
-            f += Lanes::splat(fresnel * ggx.d(h) * ggx.visibility(wo.z, wi.z));
+            f += self.specular * (fresnel * self.micro.reflection(wo, wi, h));
         }
         f
     }
@@ -78,9 +115,9 @@ impl Plastic {
     /// Probability of the coat among the admitted lobes: nearly in proportion to the energy (the mean of
     /// the coat is left out: it costs logarithms). `None` where there is none.
     #[inline]
-    fn p_coat(&self, cos_o: f32, allowed: Lobes) -> Option<f32> {
-        let e = self.coat(cos_o);
-        let s = if allowed.contains(Self::coat_lobes(self.alpha)) { e } else { 0.0 };
+    fn p_coat(&self, wo: Vec3, allowed: Lobes) -> Option<f32> {
+        let e = self.coat(wo);
+        let s = if allowed.contains(Self::coat_lobes(self.alpha)) { e * self.specular.max() } else { 0.0 };
         let d = if allowed.contains(diffuse::LOBES) { (1.0 - e) * self.base.max() * math::PI } else { 0.0 };
         (s + d > 0.0).then(|| s / (s + d))
     }
@@ -92,20 +129,20 @@ impl Plastic {
 
     #[inline]
     pub fn pdf_w(&self, wo: Vec3, wi: Vec3, allowed: Lobes) -> f32 {
-        let Some(p) = self.p_coat(wo.z, allowed) else { return 0.0 };
+        let Some(p) = self.p_coat(wo, allowed) else { return 0.0 };
         let mut pdf = (1.0 - p) * diffuse::pdf_w(wi.z);
-        if self.alpha > 0.0 && p > 0.0 {
-            pdf += p * Ggx::new(self.alpha).pdf_w(wo, half(wo, wi));
+        if !is_smooth(self.alpha) && p > 0.0 {
+            pdf += p * self.micro.pdf_reflected(wo, half_reflected(wo, wi));
         }
         pdf
     }
 
     #[inline]
     pub fn sample(&self, wo: Vec3, allowed: Lobes, u_lobe: f32, u: [f32; 2]) -> Option<BsdfSample> {
-        let p = self.p_coat(wo.z, allowed)?;
+        let p = self.p_coat(wo, allowed)?;
         let (wi, lobes) = if u_lobe >= p {
             (cosine_hemisphere(u), diffuse::LOBES)
-        } else if self.alpha == 0.0 {
+        } else if is_smooth(self.alpha) {
             let lobe = self.delta_lobe(wo);
             return Some(BsdfSample {
                 wi: lobe.wi,
@@ -115,30 +152,23 @@ impl Plastic {
                 eta: 1.0,
             });
         } else {
-            (Ggx::new(self.alpha).sample(wo, u), GLOSSY)
+            (self.micro.sample_reflected(wo, u), GLOSSY)
         };
         if wi.z <= 0.0 {
             return None;
         }
-        let pdf_w = self.pdf_w(wo, wi, allowed);
-        (pdf_w > 0.0).then(|| BsdfSample {
-            wi,
-            weight: self.eval(wo, wi, allowed) * (wi.z / pdf_w),
-            pdf_w,
-            lobes,
-            eta: 1.0,
-        })
+        BsdfSample::of(wi, self.eval(wo, wi, allowed), self.pdf_w(wo, wi, allowed), lobes, 1.0)
     }
 
     /// Reflection off a smooth coat.
     #[inline]
     pub fn delta_lobe(&self, wo: Vec3) -> DeltaLobe {
-        mirror::lobe(wo, Lanes::splat(fresnel_dielectric(wo.z, self.eta)))
+        mirror::lobe(wo, self.specular * fresnel_dielectric(wo.z, self.eta))
     }
 
     /// Directional albedo.
-    pub fn albedo(&self, cos_o: f32) -> Lanes {
-        let e = self.coat(cos_o);
-        Lanes::splat(e) + self.base_albedo() * (1.0 - e)
+    pub fn albedo(&self, wo: Vec3) -> Lanes {
+        let e = self.coat(wo);
+        self.specular * e + self.base_albedo() * (1.0 - e)
     }
 }
