@@ -13,8 +13,8 @@ use photons::Scratch;
 use sampling::Sampler;
 use scene::Scene;
 use transport::{
-    LightLayer, Lookup, PathClass, Vertex, Walk, direct, direct_with, emission_at, emission_escaped, merge,
-    nearest_irradiance,
+    LightLayer, Lookup, PathClass, Vertex, Walk, direct, direct_against, emission_at, emission_escaped,
+    merge, nearest_irradiance,
 };
 
 use crate::maps::StoredMap;
@@ -109,10 +109,10 @@ impl Eye<'_> {
                     return;
                 }
                 lobes = Lobes::DELTA;
-            } else if !vertex.bsdf.is_delta_only() {
-                if let Some(direct) = direct(self.scene, &vertex, sampler) {
-                    add(sink, LightLayer::Direct, Technique::Direct, walk.throughput * direct.radiance);
-                }
+            } else if !vertex.bsdf.is_delta_only()
+                && let Some(direct) = direct(self.scene, &vertex, sampler)
+            {
+                add(sink, LightLayer::Direct, Technique::Direct, walk.throughput * direct.radiance);
             }
             let delta = vertex.bsdf.delta_lobes(vertex.wo, TransportMode::Radiance);
             match delta {
@@ -171,7 +171,9 @@ impl Eye<'_> {
             // Each light gets its share of the rays.
             let u_light = (i as f32 + sampler.next_1d()) / n as f32;
             let u_light = u_light.min(ONE_MINUS_EPSILON);
-            if let Some(direct) = direct_with(self.scene, vertex, u_light, shifted_hammersley(i, n, shift)) {
+            if let Some(direct) =
+                direct_against(self.scene, vertex, Lobes::NON_DELTA, u_light, shifted_hammersley(i, n, shift))
+            {
                 sum += direct.radiance;
             }
         }
@@ -276,7 +278,8 @@ impl Eye<'_> {
         let near = from.is_some_and(|x| (x.hit.p - y.hit.p).length() < NEAR * global.typical_radius);
         if near && level == 0 {
             let mut second = Gathered::default();
-            if let Some(direct) = direct(self.scene, y, sampler) {
+            let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
+            if let Some(direct) = direct_against(self.scene, y, Lobes::NON_DELTA, u_light, u) {
                 second.direct += ray.throughput * direct.radiance;
             }
             if let Some(caustic) = &self.maps.caustic {

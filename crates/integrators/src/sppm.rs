@@ -8,9 +8,10 @@
 //! * light that reaches x straight from a light: light sampling and BSDF sampling, or photons (a setting);
 //! * all other light at x: photons.
 
-use bsdf::Lobes;
+use bsdf::{Lobes, TransportMode};
 use color::Lanes;
 use film::{FilmError, PassFilm};
+use math::Vec2;
 use photons::{Kernel, PhotonFlags, PhotonMap};
 use sampling::Sampler;
 use scene::Scene;
@@ -32,6 +33,9 @@ use crate::{DirectLight, Integrator, Maps, Settings, TracedPhotons};
 const KERNEL: Kernel = Kernel::Epanechnikov;
 /// Eye paths that carry less are ended by roulette.
 const FAINT: f32 = 0.1;
+
+/// Pixels along either side of the picture at which the typical radius is measured.
+const PROBES: usize = 8;
 
 /// Stochastic progressive photon mapping.
 #[derive(Clone, Debug)]
@@ -80,6 +84,7 @@ impl Integrator for Sppm {
         );
         TracedPhotons {
             global: traced.photons,
+            typical_radius: typical_radius(scene, &self.radius(scene, map_index)),
             global_balance: traced.balance,
             nonfinite: traced.nonfinite,
             ..TracedPhotons::default()
@@ -98,6 +103,11 @@ impl Integrator for Sppm {
             radius: self.radius(scene, pass),
             max_depth: self.settings.max_depth,
             direct: self.settings.sppm.direct,
+            rays: if scene.lights().iter().all(|light| light.is_delta()) {
+                Lobes::NONE
+            } else {
+                Lobes::NON_DELTA
+            },
         };
         render_pixels(scene, &self.settings, pass, &eye)
     }
@@ -109,6 +119,8 @@ struct Eye<'a> {
     radius: PassRadius,
     max_depth: u32,
     direct: DirectLight,
+    /// Lobes of D surfaces from which rays to lights are drawn: none where no ray finds a light.
+    rays: Lobes,
 }
 
 fn add(sink: &mut impl Sink, layer: LightLayer, technique: Technique, radiance: Lanes) {
@@ -135,7 +147,7 @@ impl Tracer for Eye<'_> {
             let mut lobes = Lobes::ALL;
             if vertex.bsdf.has_diffuse() {
                 if self.direct == DirectLight::Sampling {
-                    straight(&walk, &vertex, &mut sampler, sink);
+                    self.straight(&walk, &vertex, &mut sampler, sink);
                 }
                 self.merge(&walk, &vertex, sink);
                 if !vertex.bsdf.lobes().contains(Lobes::SPECULAR) {
@@ -166,31 +178,31 @@ fn escape(walk: &Walk<'_>, sink: &mut impl Sink) {
     }
 }
 
-/// Light that comes straight from a light to a D surface: one sample of the lights and one of the BSDF.
-#[inline]
-fn straight(walk: &Walk<'_>, vertex: &Vertex, sampler: &mut Sampler, sink: &mut impl Sink) {
-    let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
-    if let Some(direct) = direct_against(walk.scene(), vertex, Lobes::NON_DELTA, u_light, u) {
-        let origin =
-            Origin { layer: LightLayer::Direct, technique: Technique::Direct, light: Some(direct.light) };
-        sink.add(origin, walk.throughput * direct.radiance);
-    }
-    let mut ray = *walk;
-    if ray.scatter_lobes(vertex, Lobes::NON_DELTA, sampler).is_none() {
-        return;
-    }
-    match ray.next_vertex() {
-        None => escape(&ray, sink),
-        Some(end) => {
-            sink.reached(&ray, &end);
-            if let Some(e) = emission_at(&ray, &end) {
-                add_emission(sink, &ray, PathClass::default(), &e);
+impl Eye<'_> {
+    /// Light that comes straight from a light to a D surface: one sample of the lights and one of the BSDF.
+    #[inline]
+    fn straight(&self, walk: &Walk<'_>, vertex: &Vertex, sampler: &mut Sampler, sink: &mut impl Sink) {
+        let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
+        if let Some(direct) = direct_against(walk.scene(), vertex, self.rays, u_light, u) {
+            let origin =
+                Origin { layer: LightLayer::Direct, technique: Technique::Direct, light: Some(direct.light) };
+            sink.add(origin, walk.throughput * direct.radiance);
+        }
+        let mut ray = *walk;
+        if ray.scatter_lobes(vertex, self.rays, sampler).is_none() {
+            return;
+        }
+        match ray.next_vertex() {
+            None => escape(&ray, sink),
+            Some(end) => {
+                sink.reached(&ray, &end);
+                if let Some(e) = emission_at(&ray, &end) {
+                    add_emission(sink, &ray, PathClass::default(), &e);
+                }
             }
         }
     }
-}
 
-impl Eye<'_> {
     /// Light that photons bring to a D surface.
     #[inline]
     fn merge(&self, walk: &Walk<'_>, vertex: &Vertex, sink: &mut impl Sink) {
@@ -223,4 +235,21 @@ fn layer_of(depth: u32, flags: PhotonFlags) -> usize {
         _ if flags.contains(PhotonFlags::CAUSTIC) => 1,
         _ => 2,
     }
+}
+
+/// Median radius where the middles of pixels, spread evenly over the picture, see a D surface; 0 where none does.
+fn typical_radius(scene: &Scene, radius: &PassRadius) -> f32 {
+    let [width, height] = scene.resolution().map(|n| n as f32);
+    let radius_at = |i: usize| {
+        let at = [i % PROBES, i / PROBES].map(|k| (k as f32 + 0.5) / PROBES as f32);
+        let camera = scene.camera().sample_we(Vec2::new(at[0] * width, at[1] * height), [0.5; 2]);
+        let mut walk =
+            Walk::new(scene, TransportMode::Radiance, camera.ray, Lanes::ONE, scene.camera_medium())
+                .with_footprint(camera.width, camera.spread);
+        let vertex = walk.next_vertex()?;
+        vertex.bsdf.has_diffuse().then(|| radius.at(vertex.footprint))
+    };
+    let mut radii: Vec<f32> = (0..PROBES * PROBES).filter_map(radius_at).collect();
+    radii.sort_by(f32::total_cmp);
+    radii.get(radii.len() / 2).copied().unwrap_or(0.0)
 }

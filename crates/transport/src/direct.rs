@@ -33,12 +33,6 @@ pub struct Direct {
 pub fn direct(scene: &Scene, vertex: &Vertex, sampler: &mut Sampler) -> Option<Direct> {
     let u_light = sampler.next_1d();
     let u = sampler.next_2d();
-    direct_with(scene, vertex, u_light, u)
-}
-
-/// [`direct`] from given numbers.
-#[inline]
-pub fn direct_with(scene: &Scene, vertex: &Vertex, u_light: f32, u: [f32; 2]) -> Option<Direct> {
     direct_against(scene, vertex, Lobes::ALL, u_light, u)
 }
 

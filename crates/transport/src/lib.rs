@@ -16,7 +16,7 @@ mod walk;
 
 pub use connect::{MergingWeights, connect, connect_light, emission_against_all, escape_against_all};
 pub use direct::{
-    Direct, Emission, direct, direct_against, direct_with, emission_at, emission_escaped, power_heuristic,
+    Direct, Emission, direct, direct_against, emission_at, emission_escaped, power_heuristic,
 };
 pub use emit::{EmittedPhoton, emit, emit_mixed, emit_toward_targets};
 pub use light_densities::LightDensities;
