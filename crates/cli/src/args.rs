@@ -1,15 +1,20 @@
 //! What may be typed: one definition for the parser, the help, the completions and the man page.
 
+use std::ops::Range;
 use std::path::PathBuf;
+use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use nephroid::desc::IntegratorKind;
+use nephroid::{Extent, Film};
+
+use crate::span;
 
 /// Renders global illumination and caustics with photon maps.
 ///
 /// Exit status: 0 all is well; 1 something failed on the way (a full disk, say); 2 the command line or the scene is
-/// wrong, nothing was written; 130 interrupted, the picture of the passes done was written.
+/// wrong, nothing was written; 130 interrupted, pictures and checkpoint of the passes done were written.
 #[derive(Debug, Parser)]
 #[command(name = "nephroid", version, arg_required_else_help = true, max_term_width = 100)]
 pub struct Cli {
@@ -23,7 +28,11 @@ pub struct Cli {
 pub enum Command {
     /// Render a scene.
     Render(RenderArgs),
-    /// Say what is in a scene, without rendering it.
+    /// Go on with a checkpoint.
+    Resume(ResumeArgs),
+    /// Add up checkpoints that hold different passes of one scene.
+    Merge(MergeArgs),
+    /// Say what is in a scene or a checkpoint, without rendering it.
     Info(InfoArgs),
     /// Compare pictures with a reference, in linear radiance.
     Compare(CompareArgs),
@@ -90,6 +99,32 @@ pub struct RenderArgs {
     #[arg(short, long = "output", value_name = "OUT")]
     pub output: Vec<PathBuf>,
 
+    /// End after so long: 90 or 90s, 5m, 1h30m. Without --passes, passes go on until then; with it, whichever comes
+    /// first. One pass is always rendered. The time begins with the first pass or photon.
+    #[arg(long, value_name = "TIME", value_parser = span::parse)]
+    pub time: Option<Duration>,
+
+    /// Render only passes A to B - 1 of what may be 4194304, to be put together by `nephroid merge`.
+    #[arg(long, value_name = "A..B", conflicts_with = "passes", value_parser = parse_range)]
+    pub pass_range: Option<Range<u64>>,
+
+    /// Save the render to this file every minute, when it is interrupted, and at the end; `nephroid resume` goes on
+    /// with it. It must not exist.
+    #[arg(long, value_name = "FILE.neph")]
+    pub checkpoint: Option<PathBuf>,
+
+    /// How often to save.
+    #[arg(long, value_name = "TIME", default_value = "1m", value_parser = span::parse, requires = "checkpoint")]
+    pub checkpoint_every: Duration,
+
+    /// How to run.
+    #[command(flatten)]
+    pub run: RunArgs,
+}
+
+/// How to run, whatever is rendered.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct RunArgs {
     /// Threads; 0 is one for each core. Their number never changes the picture.
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_threads)]
     pub threads: usize,
@@ -103,10 +138,55 @@ pub struct RenderArgs {
     pub quiet: bool,
 }
 
+/// Arguments of `resume`.
+#[derive(Debug, Args)]
+pub struct ResumeArgs {
+    /// The checkpoint, which is kept up to date.
+    #[arg(value_name = "FILE.neph")]
+    pub checkpoint: PathBuf,
+
+    /// Passes that there shall be in the end, or with a plus sign, as +64, that many more [default: as was asked for
+    /// when the render began].
+    #[arg(long, value_name = "N|+N", value_parser = parse_extent)]
+    pub passes: Option<Extent>,
+
+    /// End after so much more time [default: what is left of the time that was asked for].
+    #[arg(long, value_name = "TIME", value_parser = span::parse)]
+    pub time: Option<Duration>,
+
+    /// Picture to write: .exr or .png; may be given several times [default: as when the render began].
+    #[arg(short, long = "output", value_name = "OUT")]
+    pub output: Vec<PathBuf>,
+
+    /// How often to save.
+    #[arg(long, value_name = "TIME", default_value = "1m", value_parser = span::parse)]
+    pub checkpoint_every: Duration,
+
+    /// How to run.
+    #[command(flatten)]
+    pub run: RunArgs,
+}
+
+/// Arguments of `merge`.
+#[derive(Debug, Args)]
+pub struct MergeArgs {
+    /// Checkpoints of one scene with the same settings; no pass may be in two of them. Their order does not matter.
+    #[arg(value_name = "FILE.neph", required = true)]
+    pub checkpoints: Vec<PathBuf>,
+
+    /// What to write: a picture (.exr or .png) or a checkpoint (.neph); may be given several times.
+    #[arg(short, long = "output", value_name = "OUT", required = true)]
+    pub output: Vec<PathBuf>,
+
+    /// Say nothing but what went wrong.
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
 /// Arguments of `info`.
 #[derive(Debug, Args)]
 pub struct InfoArgs {
-    /// The scene and its changes.
+    /// The scene and its changes, or a checkpoint.
     #[command(flatten)]
     pub scene: SceneArgs,
 }
@@ -197,6 +277,36 @@ fn parse_threads(text: &str) -> Result<usize, String> {
     text.parse().ok().filter(|n| *n <= 1024).ok_or_else(|| "threads are a number from 0 to 1024".to_owned())
 }
 
+fn parse_range(text: &str) -> Result<Range<u64>, String> {
+    let numbers = text.split_once("..").map(|(a, b)| (a.trim().parse(), b.trim().parse()));
+    let Some((Ok(start), Ok(end))) = numbers else {
+        return Err("a range of passes is as 64..128: the first, and the one after the last".to_owned());
+    };
+    match start..end {
+        range if range.end > Film::MAX_PASSES => {
+            Err(format!("passes are numbered below {}", Film::MAX_PASSES))
+        }
+        range if start > end => {
+            Err(format!("the range is reversed: {end}..{start} is meant?", end = range.end))
+        }
+        range if range.is_empty() => Err("the range is empty: its end is the pass after the last".to_owned()),
+        range => Ok(range),
+    }
+}
+
+fn parse_extent(text: &str) -> Result<Extent, String> {
+    let (number, extent): (_, fn(u64) -> Extent) = match text.strip_prefix('+') {
+        Some(more) => (more, Extent::More),
+        None => (text, Extent::Total),
+    };
+    match number.parse() {
+        Ok(n) if (1..=Film::MAX_PASSES).contains(&n) && number.starts_with(|c: char| c.is_ascii_digit()) => {
+            Ok(extent(n))
+        }
+        _ => Err(format!("passes are a number from 1 to {}, or as many more, as +64", Film::MAX_PASSES)),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -233,6 +343,28 @@ mod tests {
         assert_eq!(parse_exposure("-1.5"), Ok(-1.5));
         for wrong in ["", "x", "nan", "inf", "65"] {
             assert!(parse_exposure(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn ranges_of_passes() {
+        assert_eq!(parse_range("64..128"), Ok(64..128));
+        assert_eq!(parse_range("0..4194304"), Ok(0..4_194_304));
+        for (wrong, said) in
+            [("4..4", "empty"), ("9..3", "3..9"), ("5", "64..128"), ("..4", "64"), ("-1..4", "64")]
+        {
+            let message = parse_range(wrong).unwrap_err();
+            assert!(message.contains(said), "{wrong}: {message}");
+        }
+        assert!(parse_range("0..4194305").is_err());
+    }
+
+    #[test]
+    fn extents() {
+        assert_eq!(parse_extent("64"), Ok(Extent::Total(64)));
+        assert_eq!(parse_extent("+1"), Ok(Extent::More(1)));
+        for wrong in ["", "0", "+0", "++4", "-4", "x", "4194305"] {
+            assert!(parse_extent(wrong).is_err(), "{wrong}");
         }
     }
 }

@@ -3,9 +3,10 @@
 use std::fmt::Write as _;
 
 use nephroid::desc::{FilterKind, IntegratorKind, Render, View};
-use nephroid::{Light, LightId, Scene, SceneDesc, film_bytes, scene_hash};
+use nephroid::{Checkpoint, Light, LightId, Scene, SceneDesc, film_bytes, scene_hash};
 
 use crate::args::InfoArgs;
+use crate::checkpoint;
 use crate::failure::{Failure, OK, Outcome};
 use crate::say;
 use crate::scene::{compiled, describe};
@@ -15,6 +16,9 @@ const LISTED: usize = 20;
 
 /// Says what is in a scene.
 pub fn run(args: &InfoArgs) -> Outcome {
+    if Checkpoint::is_one(&args.scene.scene) {
+        return checkpoint::info(&args.scene.scene);
+    }
     let mut described = describe(&args.scene, Vec::new())?;
     let (scene, warnings) = compiled(&mut described, 0)?;
     if !warnings.is_empty() {
@@ -30,12 +34,13 @@ pub fn run(args: &InfoArgs) -> Outcome {
     Ok(OK)
 }
 
-fn row(text: &mut String, name: &str, value: &str) {
+/// A name and a value.
+pub fn row(text: &mut String, name: &str, value: &str) {
     let _ = writeln!(text, "{name:<11} {value}");
 }
 
 /// What would be computed.
-fn settings(text: &mut String, desc: &SceneDesc) {
+pub fn settings(text: &mut String, desc: &SceneDesc) {
     let [w, h] = desc.film.size;
     let filter = match desc.film.filter {
         FilterKind::Box => "box",

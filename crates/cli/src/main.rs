@@ -1,16 +1,21 @@
 //! The command line: says what sessions tell, and nothing that they don't know.
 
 mod args;
+mod checkpoint;
 mod compare;
 mod describe;
+mod drive;
 mod failure;
 mod info;
 mod manual;
+mod merge;
 mod progress;
 mod render;
+mod resume;
 mod say;
 mod scene;
 mod signals;
+mod span;
 
 use std::process::ExitCode;
 
@@ -21,6 +26,8 @@ use args::{Cli, Command};
 fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Render(args) => render::run(&args),
+        Command::Resume(args) => resume::run(&args),
+        Command::Merge(args) => merge::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Describe(args) => describe::run(&args),

@@ -4,6 +4,7 @@ use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use nephroid::Remaining;
 
 use crate::say::say;
 
@@ -19,24 +20,37 @@ pub enum Progress {
     Lines {
         /// When the last one was printed.
         last: Instant,
-        /// Tenths of the passes that were told.
+        /// Tenths of the render that were told.
         tenths: u64,
     },
     /// Nothing.
     Quiet,
 }
 
+/// How far a render is.
+#[derive(Clone, Copy, Debug)]
+pub struct Position {
+    /// Passes that are done.
+    pub done: u64,
+    /// Passes that there will be.
+    pub passes: Option<u64>,
+    /// Since it began.
+    pub elapsed: Duration,
+    /// Until it ends.
+    pub remaining: Remaining,
+}
+
 impl Progress {
-    /// What suits standard error, for a render of `passes`.
-    pub fn new(quiet: bool, passes: u64) -> Self {
+    /// What suits standard error.
+    pub fn new(quiet: bool) -> Self {
         if quiet {
             return Self::Quiet;
         }
         if !std::io::stderr().is_terminal() {
             return Self::Lines { last: Instant::now(), tenths: 0 };
         }
-        let bar = ProgressBar::with_draw_target(Some(passes), ProgressDrawTarget::stderr());
-        if let Ok(style) = ProgressStyle::with_template("{msg:18} {wide_bar} {pos}/{len} passes, {prefix}") {
+        let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::stderr());
+        if let Ok(style) = ProgressStyle::with_template("{msg:18} {wide_bar} {prefix}") {
             bar.set_style(style);
         }
         bar.enable_steady_tick(Duration::from_millis(500));
@@ -53,25 +67,26 @@ impl Progress {
     }
 
     /// What is being done now.
-    pub fn doing(&self, what: &str) {
+    pub fn doing(&self, what: &'static str) {
         if let Self::Bar(bar) = self {
-            bar.set_message(what.to_owned());
+            bar.set_message(what);
         }
     }
 
-    /// `done` of `passes` are done; the rest takes about `remaining`.
-    pub fn passes(&mut self, done: u64, passes: u64, elapsed: Duration, remaining: Duration) {
+    /// A pass is done.
+    pub fn pass(&mut self, at: &Position) {
         match self {
             Self::Bar(bar) => {
-                bar.set_prefix(format!("{} left", duration(remaining)));
-                bar.set_position(done);
+                let of = at.passes.map_or(String::new(), |passes| format!("/{passes}"));
+                bar.set_prefix(format!("{}{of} passes, {}", at.done, left(at.remaining)));
+                bar.set_position((at.share() * 1000.0) as u64);
             }
             Self::Lines { last, tenths } => {
-                let now = done * 10 / passes.max(1);
+                let now = (at.share() * 10.0 + 1e-9) as u64;
                 if now > *tenths || last.elapsed() >= SILENCE {
                     *tenths = now;
                     *last = Instant::now();
-                    say(&pass_line(done, passes, elapsed, remaining));
+                    say(&pass_line(at));
                 }
             }
             Self::Quiet => {}
@@ -86,13 +101,40 @@ impl Progress {
     }
 }
 
-fn pass_line(done: u64, passes: u64, elapsed: Duration, remaining: Duration) -> String {
-    let percent = done * 100 / passes.max(1);
-    let mut line = format!("pass {done}/{passes} ({percent} %), {} elapsed", duration(elapsed));
-    if done < passes {
-        line += &format!(", {} left", duration(remaining));
+impl Position {
+    /// How much of the render is done, from 0 to 1, by the limit that is nearest.
+    fn share(&self) -> f64 {
+        let passes = self.passes.map_or(0.0, |passes| self.done as f64 / passes.max(1) as f64);
+        let elapsed = self.elapsed.as_secs_f64();
+        let time = self.remaining.time.map_or(0.0, |left| elapsed / (elapsed + left.as_secs_f64()).max(1e-9));
+        passes.max(time).min(1.0)
+    }
+}
+
+fn pass_line(at: &Position) -> String {
+    let mut line = format!("pass {}", at.done);
+    if let Some(passes) = at.passes {
+        line += &format!("/{passes} ({} %)", at.done * 100 / passes.max(1));
+    }
+    line += &format!(", {} elapsed", duration(at.elapsed));
+    if at.passes != Some(at.done) && at.remaining.first().is_some() {
+        line += &format!(", {}", left(at.remaining));
     }
     line
+}
+
+/// Until the end; by both limits where there are two.
+fn left(remaining: Remaining) -> String {
+    match (remaining.passes, remaining.time) {
+        (Some(passes), Some(time)) if passes <= time => {
+            format!("{} left ({} of the time)", duration(passes), duration(time))
+        }
+        (Some(passes), Some(time)) => {
+            format!("{} left of the time ({} to the last pass)", duration(time), duration(passes))
+        }
+        (Some(one), None) | (None, Some(one)) => format!("{} left", duration(one)),
+        (None, None) => "no end".to_owned(),
+    }
 }
 
 /// As people say it: 0.4 s, 12 s, 3 min 20 s, 2 h 05 min.
@@ -126,7 +168,28 @@ mod tests {
     #[test]
     fn lines() {
         let s = Duration::from_secs;
-        assert_eq!(pass_line(3, 12, s(6), s(18)), "pass 3/12 (25 %), 6.0 s elapsed, 18 s left");
-        assert_eq!(pass_line(12, 12, s(24), s(0)), "pass 12/12 (100 %), 24 s elapsed");
+        let line = |done, passes, elapsed, to_last: Option<u64>, time: Option<u64>| {
+            let remaining = Remaining { passes: to_last.map(s), time: time.map(s) };
+            pass_line(&Position { done, passes, elapsed: s(elapsed), remaining })
+        };
+        let said = [
+            line(3, Some(12), 6, Some(18), None),
+            line(12, Some(12), 24, Some(0), None),
+            line(3, None, 6, None, Some(54)),
+            line(3, Some(12), 6, Some(18), Some(54)),
+            line(3, Some(120), 6, Some(240), Some(54)),
+            line(3, None, 6, None, None),
+        ];
+        assert_eq!(
+            said,
+            [
+                "pass 3/12 (25 %), 6.0 s elapsed, 18 s left",
+                "pass 12/12 (100 %), 24 s elapsed",
+                "pass 3, 6.0 s elapsed, 54 s left",
+                "pass 3/12 (25 %), 6.0 s elapsed, 18 s left (54 s of the time)",
+                "pass 3/120 (2 %), 6.0 s elapsed, 54 s left of the time (4 min 00 s to the last pass)",
+                "pass 3, 6.0 s elapsed",
+            ]
+        );
     }
 }

@@ -3,8 +3,8 @@
 use std::time::Instant;
 
 use nephroid::{
-    CompileError, Compiled, Diagnostic, Overrides, Phase, SceneDesc, Sources, Timings, compile, load,
-    render_all,
+    Checkpoint, CompileError, Compiled, Diagnostic, Overrides, Phase, SceneDesc, Sources, Timings, compile,
+    load, render_all,
 };
 
 use crate::args::SceneArgs;
@@ -25,6 +25,12 @@ pub struct Described {
 
 /// Reads the scene of `args`. `messages`: what else is wrong with the command line, to be said with it.
 pub fn describe(args: &SceneArgs, messages: Vec<String>) -> Result<Described, Failure> {
+    if Checkpoint::is_one(&args.scene) {
+        let name = args.scene.display();
+        return Err(Failure::usage(format!(
+            "{name} is no scene but a checkpoint\n  = help: `nephroid resume {name}` goes on with it"
+        )));
+    }
     let start = Instant::now();
     let loaded = load(&args.scene, &args.set);
     let mut timings = Timings::default();

@@ -3,6 +3,8 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use nephroid::discard_unfinished;
+
 /// Exit status of an interrupted run, as shells count it: 128 + SIGINT.
 pub const INTERRUPTED: u8 = 130;
 
@@ -21,6 +23,8 @@ impl Interrupt {
         let count = interrupt.0.clone();
         ctrlc::set_handler(move || {
             if count.fetch_add(1, Ordering::SeqCst) > 0 {
+                // Files are replaced whole or not at all; nothing half-written is left beside them.
+                discard_unfinished();
                 std::process::exit(INTERRUPTED.into());
             }
             on_first();

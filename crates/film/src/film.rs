@@ -146,6 +146,12 @@ impl Film {
         Ok(())
     }
 
+    /// Memory that it takes, in bytes.
+    pub fn memory_bytes(&self) -> u64 {
+        let sums = size_of_val(&*self.pixels) + size_of_val(&*self.unweighted) + self.layers.memory_bytes();
+        sums as u64
+    }
+
     /// Number of passes.
     pub fn passes(&self) -> u64 {
         self.passes.iter().map(|r| r.end - r.start).sum()

@@ -44,6 +44,10 @@ impl NamedLayers {
         Ok(())
     }
 
+    pub(crate) fn memory_bytes(&self) -> usize {
+        size_of_val(&*self.sums) + size_of_val(&*self.unweighted)
+    }
+
     pub(crate) fn names(&self) -> &[String] {
         &self.names
     }

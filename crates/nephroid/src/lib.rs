@@ -35,7 +35,7 @@
 pub use color::{Lanes, ViewTransform};
 pub use film::{
     CompareError, Comparison, Film, Layer, OutputError, ReadError, RgbImage, check_writable, compare,
-    difference, encode_png_bytes, write_atomically,
+    difference, discard_unfinished, encode_png_bytes, write_atomically,
 };
 pub use integrators::{IntegratorKind, MapReport, PhotonMapSettings, Settings};
 pub use math::Vec3;
@@ -45,7 +45,8 @@ pub use scenefile::{
     to_toml, topics,
 };
 pub use session::{
-    CompileError, Compiled, Control, Event, Job, Outcome, Output, OutputKind, Overrides, Phase, PictureError,
-    PictureInfo, SceneHash, Session, SessionError, Timings, Warning, check_outputs, compile, film_bytes,
-    overwritten_inputs, scene_hash, settings,
+    Checkpoint, CheckpointError, CheckpointErrorKind, CheckpointFile, CheckpointInfo, CompileError, Compiled,
+    Control, Event, Extent, Job, MergeError, Outcome, Output, OutputKind, Overrides, Phase, PictureError,
+    PictureInfo, Remaining, Resumed, SceneHash, Session, SessionError, Timings, Warning, check_outputs, compile,
+    film_bytes, gaps, merge, overwritten_inputs, resume, said, scene_hash, settings, write_checkpoint,
 };

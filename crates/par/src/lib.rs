@@ -1,8 +1,11 @@
 //! The only threads. Work is cut into fixed-size chunks of indices, never by thread count, and results come back
 //! in index order: a caller cannot observe the schedule. There is no parallel floating-point reduction here.
 
+mod background;
+
 use std::ops::Range;
 
+pub use background::Background;
 use rayon::prelude::*;
 
 /// A pool of worker threads.

@@ -24,7 +24,7 @@ pub use check::check;
 pub use desc::SceneDesc;
 pub use describe::{UnknownTopic, describe, topics};
 pub use diagnostic::{Diagnostic, Label, Severity};
-pub use load::{Loaded, MOST_BYTES, load, parse};
+pub use load::{Loaded, MOST_BYTES, load, parse, reread};
 pub use snippet::{Position, position, render_all};
 pub use source::{FileId, Source, Sourced, Sources, Span};
 pub use write::to_toml;

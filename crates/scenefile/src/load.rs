@@ -89,6 +89,21 @@ fn decode(bytes: Vec<u8>) -> Result<String, (String, Option<String>)> {
 
 /// Checks a text as if it stood in the file `path`, from whose folder relative file names start.
 pub fn parse(text: &str, path: &Path, overrides: &[String]) -> Loaded {
+    parse_checked(text, path, overrides, |report, desc, file| check_into(report, desc, Some(file)))
+}
+
+/// [`parse`] of what [`to_toml`](crate::to_toml) wrote of a description that was good: it is not checked again, and the
+/// files that it names need not be there.
+pub fn reread(text: &str, base: &Path) -> Loaded {
+    parse_checked(text, &base.join("scene.toml"), &[], |_, _, _| {})
+}
+
+fn parse_checked(
+    text: &str,
+    path: &Path,
+    overrides: &[String],
+    check: impl FnOnce(&mut Report, &SceneDesc, FileId),
+) -> Loaded {
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut sources = Sources::default();
     let file = sources.add(path, text);
@@ -97,7 +112,7 @@ pub fn parse(text: &str, path: &Path, overrides: &[String]) -> Loaded {
     let mut desc = desc;
     desc.base = path.parent().map(Path::to_path_buf).unwrap_or_default();
     if !broken {
-        check_into(&mut report, &desc, Some(file));
+        check(&mut report, &desc, file);
     }
     let diagnostics = report.finish();
     let failed = diagnostics.iter().any(Diagnostic::is_error);

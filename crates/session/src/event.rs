@@ -1,10 +1,12 @@
 use std::fmt;
+use std::path::Path;
+use std::sync::Arc;
 use std::time::Duration;
 
-use film::{Film, FilmNonFinite};
+use film::{Film, FilmNonFinite, OutputError};
 use integrators::MapReport;
 
-use crate::Phase;
+use crate::{Phase, Remaining};
 
 /// What a session tells its observer.
 #[derive(Debug)]
@@ -35,16 +37,39 @@ pub enum Event<'a> {
     PassDone {
         /// Its index.
         pass: u64,
-        /// Passes of this job that are in the film.
+        /// Passes that are in the film.
         done: u64,
-        /// Passes of this job.
-        passes: u64,
+        /// Passes that will be in it; `None` where they have no end.
+        passes: Option<u64>,
         /// Wall-clock time since the session began to run.
         elapsed: Duration,
-        /// Wall-clock time that the passes to come will take, from those so far.
-        remaining: Duration,
+        /// Wall-clock time until the render ends.
+        remaining: Remaining,
         /// The film with this pass in it: a picture may be taken of it.
         film: &'a Film,
+    },
+    /// A copy of the film, which may be kept ([`crate::Session::with_snapshots`]).
+    Snapshot {
+        /// The film.
+        film: &'a Arc<Film>,
+    },
+    /// The checkpoint file holds so much now.
+    CheckpointWritten {
+        /// The file.
+        path: &'a Path,
+        /// Passes in it.
+        passes: u64,
+        /// Its size.
+        bytes: u64,
+        /// Wall-clock time that writing took, beside the render but for the last one.
+        elapsed: Duration,
+    },
+    /// A checkpoint could not be written. The older one is still there, and the render goes on and tries again.
+    CheckpointFailed {
+        /// Passes that were to be in it.
+        passes: u64,
+        /// Why.
+        error: &'a OutputError,
     },
     /// Something is not as it should be; the render goes on.
     Warning(Warning),

@@ -39,7 +39,7 @@ pub fn scene_hash(desc: &SceneDesc) -> Result<SceneHash, String> {
 }
 
 /// The description without what does not decide the radiance of a pass.
-fn canonical(desc: &SceneDesc) -> SceneDesc {
+pub(crate) fn canonical(desc: &SceneDesc) -> SceneDesc {
     let (film, render) = (Film::default(), Render::default());
     SceneDesc {
         base: PathBuf::new(),
@@ -61,6 +61,13 @@ pub(crate) fn files(desc: &SceneDesc) -> BTreeSet<&Path> {
         _ => None,
     });
     textures.chain(meshes).collect()
+}
+
+/// The hash of what is in a file, as of a scene.
+pub(crate) fn file_hash(path: &Path) -> io::Result<SceneHash> {
+    let mut hash = Fnv::new();
+    hash_file(&mut hash, path)?;
+    Ok(SceneHash(hash.0))
 }
 
 fn hash_file(hash: &mut Fnv, path: &Path) -> io::Result<()> {

@@ -198,7 +198,7 @@ pub fn overwritten_inputs(outputs: &[Output], desc: &SceneDesc) -> Vec<PictureEr
 }
 
 /// Equal for two names of one file in existing folders.
-fn identity(path: &Path) -> (PathBuf, OsString) {
+pub(crate) fn identity(path: &Path) -> (PathBuf, OsString) {
     let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
     (folder, path.file_name().unwrap_or_default().to_owned())

@@ -17,6 +17,7 @@ fn the_default_output_is_named_after_the_scene() {
         pass 1/2 (50 %), _ s elapsed, _ s left
         pass 2/2 (100 %), _ s elapsed
         wrote box.png (16x12, 2 passes)
+        noise _ % (mean standard error of a pixel, over the mean luminance)
     "#]]
     .assert_eq(&masked(&ran.err));
 }
@@ -29,6 +30,7 @@ fn path_tracing_says_its_passes() {
         pass 1/2 (50 %), _ s elapsed, _ s left
         pass 2/2 (100 %), _ s elapsed
         wrote a.exr (16x12, 2 passes)
+        noise _ % (mean standard error of a pixel, over the mean luminance)
     "#]]
     .assert_eq(&masked(&ran.err));
 }

@@ -1,0 +1,228 @@
+//! Runs a session to its end: progress, signals, pictures, and what is said of them.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use nephroid::{Control, Event, Film, MapReport, Output, Phase, PictureInfo, Session, Timings};
+
+use crate::args::RunArgs;
+use crate::failure::{FAILED, Failure, OK, Outcome};
+use crate::info::bytes;
+use crate::progress::{Position, Progress, duration};
+use crate::say;
+use crate::signals::{INTERRUPTED, Interrupt};
+
+/// Renders what is missing and writes the pictures. `timings`: what came before.
+pub fn drive(
+    mut session: Session,
+    outputs: &[Output],
+    info: &PictureInfo,
+    args: RunArgs,
+    mut timings: Timings,
+) -> Outcome {
+    let mut progress = Progress::new(args.quiet);
+    let handle = progress.clone();
+    let interrupt = Interrupt::catch(move || {
+        handle.line("interrupted: the picture is written after this pass; once more ends at once");
+    })
+    .map_err(|e| Failure::runtime(format!("Ctrl-C cannot be caught: {e}")))?;
+    let mut teller = Teller::default();
+    let result = session.run(&mut |event| {
+        teller.tell(&mut progress, event);
+        if interrupt.is_asked() { Control::Stop } else { Control::Continue }
+    });
+    progress.finish();
+
+    timings.merge(session.timings());
+    let mut code = OK;
+    if let Err(error) = &result {
+        say::error(&format!("the render stopped: {error}"));
+        code = FAILED;
+    }
+    let loud = !args.quiet;
+    if loud && let Some((passes, size)) = teller.saved.filter(|_| session.is_saved() == Some(true)) {
+        say_saved(&session, passes, size);
+    }
+    if session.is_saved() == Some(false) && session.done() > 0 {
+        code = FAILED;
+    }
+    if session.done() > 0 && !write(outputs, session.film(), info, args.quiet, &mut timings) {
+        code = FAILED;
+        if let (Some(true), Some(file)) = (session.is_saved(), session.checkpoint_file()) {
+            let file = file.path().display();
+            say::say(&format!("  = help: nothing is lost: `nephroid merge {file} -o OUT` writes a picture"));
+        }
+    }
+    if loud {
+        say_end(&session, result.as_ref().ok().copied());
+    }
+    if result == Ok(nephroid::Outcome::Stopped) && code == OK {
+        code = INTERRUPTED;
+    }
+    if args.timings {
+        say::print(&timing_table(&timings))?;
+    }
+    Ok(code)
+}
+
+/// What was told already.
+#[derive(Default)]
+struct Teller {
+    maps: bool,
+    /// Passes and size of the last checkpoint.
+    saved: Option<(u64, u64)>,
+}
+
+impl Teller {
+    fn tell(&mut self, progress: &mut Progress, event: Event<'_>) {
+        match event {
+            Event::PhaseStarted(phase) => progress.doing(phase.name()),
+            Event::PassStarted { .. } | Event::PhaseDone { .. } => progress.doing(Phase::EyePasses.name()),
+            // Once, though some integrators make maps for every pass.
+            Event::MapsReady { reports, .. } if !std::mem::replace(&mut self.maps, true) => {
+                say_maps(progress, reports);
+            }
+            Event::PassDone { done, passes, elapsed, remaining, .. } => {
+                progress.pass(&Position { done, passes, elapsed, remaining });
+            }
+            Event::Warning(warning) => warn(progress, &warning),
+            Event::CheckpointWritten { passes, bytes, .. } => self.saved = Some((passes, bytes)),
+            Event::CheckpointFailed { error, .. } => {
+                let older = self.saved.map_or(String::new(), |(passes, _)| {
+                    format!("; the checkpoint of {passes} passes is still there")
+                });
+                warn(progress, &format!("{error}{older}\n  = help: {}", error.help()));
+            }
+            _ => {}
+        }
+    }
+}
+
+fn say_maps(progress: &Progress, reports: &[MapReport]) {
+    for report in reports {
+        progress.line(&format!(
+            "{} map: {} stored photons, {}, typical radius {:.3e}",
+            report.name,
+            report.photons,
+            bytes(report.bytes as u64),
+            report.typical_radius
+        ));
+    }
+}
+
+/// Warnings are said whatever the verbosity.
+fn warn(progress: &Progress, warning: &(impl ToString + ?Sized)) {
+    let text = say::warning(&warning.to_string());
+    match progress {
+        Progress::Quiet => say::say(&text),
+        _ => progress.line(&text),
+    }
+}
+
+fn say_saved(session: &Session, passes: u64, size: u64) {
+    if let Some(file) = session.checkpoint_file() {
+        say::say(&format!("saved {} ({passes} passes, {})", file.path().display(), bytes(size)));
+    }
+}
+
+/// How it ended, where that is not plain, and how good the picture is.
+fn say_end(session: &Session, outcome: Option<nephroid::Outcome>) {
+    let done = session.done();
+    let of = session.total().map_or(String::new(), |total| format!(" of {total}"));
+    let resume = || {
+        let file = session.checkpoint_file().filter(|_| session.is_saved() == Some(true))?;
+        Some(format!("; `nephroid resume {}` goes on", file.path().display()))
+    };
+    match outcome {
+        Some(nephroid::Outcome::Stopped) => {
+            say::say(&format!("interrupted after {done}{of} passes{}", resume().unwrap_or_default()));
+        }
+        Some(nephroid::Outcome::TimeUp) => say::say(&format!("the time is up after {done}{of} passes")),
+        Some(nephroid::Outcome::Finished) | None => {}
+    }
+    if let Some(noise) = noise_line(session.film()) {
+        say::say(&noise);
+    }
+}
+
+/// The noise of a film, in words.
+pub fn noise_line(film: &Film) -> Option<String> {
+    let percent = 100.0 * film.mean_relative_noise()?;
+    let digits = if percent < 0.995 { 2 } else { usize::from(percent < 9.95) };
+    Some(format!("noise {percent:.digits$} % (mean standard error of a pixel, over the mean luminance)"))
+}
+
+/// Writes every output that can be written; whether all could.
+pub fn write(
+    outputs: &[Output],
+    film: &Film,
+    info: &PictureInfo,
+    quiet: bool,
+    timings: &mut Timings,
+) -> bool {
+    let start = Instant::now();
+    let mut all = true;
+    for output in outputs {
+        match output.write(film, info) {
+            Ok(()) if quiet => {}
+            Ok(()) => say::say(&format!(
+                "wrote {} ({}x{}, {} passes)",
+                output.path().display(),
+                film.width(),
+                film.height(),
+                film.passes()
+            )),
+            Err(error) => {
+                say::error(&format!("{error}\n  = help: {}", error.help()));
+                all = false;
+            }
+        }
+    }
+    timings.add(Phase::Write, start.elapsed());
+    all
+}
+
+/// Absolute paths, for whoever goes on with the render in another folder.
+pub fn absolute(outputs: &[Output]) -> Vec<PathBuf> {
+    let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    outputs.iter().map(|output| absolute(output.path())).collect()
+}
+
+/// A row a phase: name, seconds, share.
+fn timing_table(timings: &Timings) -> String {
+    let total = timings.total().as_secs_f64();
+    let mut out = String::new();
+    for (phase, spent) in timings.iter() {
+        let s = spent.as_secs_f64();
+        let share = if total > 0.0 { 100.0 * s / total } else { 0.0 };
+        let _ = writeln!(out, "{:<18} {s:>10.3} s {share:>5.1} %", phase.name());
+    }
+    let _ = writeln!(out, "{:<18} {total:>10.3} s   ({})", "total", duration(timings.total()));
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use expect_test::expect;
+    use std::time::Duration;
+
+    #[test]
+    fn the_table_of_timings() {
+        let mut timings = Timings::default();
+        timings.add(Phase::Load, Duration::from_millis(4));
+        timings.add(Phase::EyePasses, Duration::from_millis(12_000));
+        timings.add(Phase::Write, Duration::from_millis(30));
+        expect![[r#"
+            load scene              0.004 s   0.0 %
+            compile scene           0.000 s   0.0 %
+            trace photons           0.000 s   0.0 %
+            build photon maps       0.000 s   0.0 %
+            eye passes             12.000 s  99.7 %
+            write pictures          0.030 s   0.2 %
+            total                  12.034 s   (12 s)
+        "#]]
+        .assert_eq(&timing_table(&timings));
+    }
+}

@@ -1,0 +1,92 @@
+//! `nephroid merge`.
+
+use std::path::PathBuf;
+
+use nephroid::{
+    Checkpoint, CheckpointFile, MergeError, PictureInfo, Timings, gaps, merge, overwritten_inputs, said,
+};
+
+use crate::args::MergeArgs;
+use crate::checkpoint;
+use crate::drive::{noise_line, write};
+use crate::failure::{FAILED, Failure, OK, Outcome};
+use crate::info::bytes;
+use crate::render::{checked, refusal};
+use crate::say;
+
+/// Adds up checkpoints.
+pub fn run(args: &MergeArgs) -> Outcome {
+    let (saves, pictures): (Vec<_>, Vec<_>) =
+        args.output.iter().cloned().partition(|path| is_checkpoint(path));
+    let mut messages = Vec::new();
+    let outputs = checked(&pictures, &mut messages);
+    let files: Vec<CheckpointFile> = saves
+        .iter()
+        .filter_map(|path| {
+            CheckpointFile::open(path).map_err(|e| messages.push(checkpoint::refusal(&e))).ok()
+        })
+        .collect();
+    for file in &files {
+        // A checkpoint is work: it is not replaced by the way, not even by one that holds more.
+        if file.path().exists() {
+            messages.push(format!(
+                "cannot write {}: there is such a file already\n  = help: give another name, or remove it first",
+                file.path().display()
+            ));
+        }
+    }
+    if !messages.is_empty() {
+        return Err(Failure::Usage(messages));
+    }
+    let Checkpoint { info, film } =
+        merge(&args.checkpoints).map_err(|errors| Failure::Usage(errors.iter().map(reason).collect()))?;
+    let replaced = overwritten_inputs(&outputs, &info.desc);
+    if !replaced.is_empty() {
+        return Err(Failure::Usage(replaced.iter().map(refusal).collect()));
+    }
+    if !args.quiet {
+        let missing = gaps(film.pass_ranges());
+        let note = if missing.is_empty() {
+            String::new()
+        } else {
+            format!("; {} are not among them", said(&missing))
+        };
+        let what = if args.checkpoints.len() == 1 { "read" } else { "merged" };
+        say::say(&format!("{what} {} passes of {} file(s){note}", film.passes(), args.checkpoints.len()));
+    }
+    let mut code = OK;
+    for file in &files {
+        match file.write(&info, &film) {
+            Ok(_) if args.quiet => {}
+            Ok(size) => say::say(&format!(
+                "wrote {} ({}, {})",
+                file.path().display(),
+                said(film.pass_ranges()),
+                bytes(size)
+            )),
+            Err(error) => {
+                say::error(&format!("{error}\n  = help: {}", error.help()));
+                code = FAILED;
+            }
+        }
+    }
+    let picture = PictureInfo::new(&info.desc, info.hash);
+    if !write(&outputs, &film, &picture, args.quiet, &mut Timings::default()) {
+        code = FAILED;
+    }
+    if let Some(noise) = noise_line(&film).filter(|_| !args.quiet) {
+        say::say(&noise);
+    }
+    Ok(code)
+}
+
+fn is_checkpoint(path: &PathBuf) -> bool {
+    path.extension().is_some_and(|e| e.eq_ignore_ascii_case("neph"))
+}
+
+fn reason(error: &MergeError) -> String {
+    match error {
+        MergeError::Checkpoint(error) => checkpoint::refusal(error),
+        other => other.to_string(),
+    }
+}

@@ -1,0 +1,54 @@
+//! `nephroid resume`.
+
+use nephroid::{
+    CheckpointError, CheckpointErrorKind, CompileError, Extent, PictureInfo, Resumed, SessionError, Sources,
+    overwritten_inputs, render_all, resume,
+};
+
+use crate::args::ResumeArgs;
+use crate::checkpoint;
+use crate::drive::drive;
+use crate::failure::{Failure, Outcome};
+use crate::render::{checked, refusal};
+use crate::say;
+
+/// Goes on with a checkpoint.
+pub fn run(args: &ResumeArgs) -> Outcome {
+    let mut messages = Vec::new();
+    checked(&args.output, &mut messages);
+    if !messages.is_empty() {
+        return Err(Failure::Usage(messages));
+    }
+    let extent = args.passes.unwrap_or(Extent::AsAsked);
+    let resumed = resume(&args.checkpoint, extent, args.time, args.checkpoint_every, args.run.threads);
+    let Resumed { mut session, info, warnings, timings } = resumed.map_err(|e| failure(&e))?;
+    let outputs = if args.output.is_empty() { &info.outputs } else { &args.output };
+    let outputs = checked(outputs, &mut messages);
+    messages.extend(overwritten_inputs(&outputs, &info.desc).iter().map(refusal));
+    if !messages.is_empty() {
+        return Err(Failure::Usage(messages));
+    }
+    if !args.output.is_empty() {
+        session = session.with_outputs(crate::drive::absolute(&outputs));
+    }
+    if !warnings.is_empty() {
+        say::say(say::painted(&render_all(&warnings, &Sources::default())).trim_end());
+    }
+    if !args.run.quiet {
+        let (name, done) = (args.checkpoint.display(), session.done());
+        say::say(&match (session.total(), session.missing()) {
+            (Some(total), 0) => format!("{name} has all of its {total} passes: nothing is left to render"),
+            (Some(total), _) => format!("going on with {name}: {done} of {total} passes are done"),
+            (None, _) => format!("going on with {name}: {done} passes are done"),
+        });
+    }
+    drive(session, &outputs, &PictureInfo::new(&info.desc, info.hash), args.run, timings)
+}
+
+fn failure(error: &CheckpointError) -> Failure {
+    match error.kind() {
+        CheckpointErrorKind::Session(SessionError::Threads(_) | SessionError::Memory(_))
+        | CheckpointErrorKind::Scene(CompileError::Threads(_)) => Failure::runtime(error),
+        _ => Failure::Usage(vec![checkpoint::refusal(error)]),
+    }
+}
