@@ -134,7 +134,9 @@ pub enum BsdfKind {
         film: Film,
     },
     /// A dielectric coat over a diffuse base with all that it may have; [`BsdfKind::Plastic`] is its plain form. Alike from both
-    /// sides. The base takes all that the coat's single bounce does not reflect, whatever the facets.
+    /// sides. With conserving facets the base takes all that the coat's single bounce does not reflect; with the others what the
+    /// coat's facets lose is lost, at each crossing and inner reflection, as in Mitsuba's `roughplastic` and, on the mean, in a random
+    /// walk between the layers (pbrt-v4); for Beckmann's from the tables of GGX.
     CoatedDiffuse {
         /// Reflectance of the base (see [`crate::linear_plastic_albedo`], [`crate::absorbing_coat_albedo`]).
         albedo: Lanes,
@@ -144,10 +146,10 @@ pub enum BsdfKind {
         eta: f32,
         /// Roughness of the coat.
         alpha: [f32; 2],
-        /// Model of the facets; the first two are the same here.
+        /// Model of the facets.
         facets: Facets,
     },
-    /// A dielectric coat over a metal, alike from both sides. Facets are GGX, energy conserving.
+    /// A dielectric coat over a metal, alike from both sides.
     CoatedConductor {
         /// Real part of the metal's index, relative to that outside the coat.
         n: Lanes,
@@ -161,6 +163,9 @@ pub enum BsdfKind {
         coat_alpha: f32,
         /// Optical depth of the coat along its normal, ≥ 0 (pbrt-v4's `thickness`, where its `albedo` is 0).
         depth: f32,
+        /// Model of the facets of both; the last two are the same here (GGX, and dark with roughness as a random walk through
+        /// single bounces is).
+        facets: Facets,
     },
     /// Everything at once: OpenPBR's and Disney's slab, glTF's materials.
     Principled(Principled),

@@ -44,14 +44,18 @@ pub(crate) fn prepared(kind: &BsdfKind) -> Lanes {
         BsdfKind::RoughConductor { n, k, alpha, facets, film, .. } if !is_smooth(alpha) => {
             conductor::multiple(&Micro::new(facets, alpha), &Reflectance::conductor(n, k).under(film, 1.0))
         }
-        BsdfKind::Plastic { albedo, eta, alpha } => plastic::base(albedo, eta, [alpha; 2]),
-        BsdfKind::CoatedDiffuse { albedo, eta, alpha, .. } => plastic::base(albedo, eta, alpha),
+        BsdfKind::Plastic { albedo, eta, alpha } => {
+            plastic::base(albedo, eta, [alpha; 2], Facets::Conserving)
+        }
+        BsdfKind::CoatedDiffuse { albedo, eta, alpha, facets, .. } => {
+            plastic::base(albedo, eta, alpha, facets)
+        }
         BsdfKind::RoughDielectric { eta, alpha, facets, .. } if !is_smooth(alpha) => {
             let [front, back] = glass::means(&Micro::new(facets, alpha), eta);
             Lanes(Vec4::new(front, back, 0.0, 0.0))
         }
-        BsdfKind::CoatedConductor { n, k, alpha, eta, coat_alpha, depth } => {
-            CoatedConductor::new(n, k, alpha, eta, coat_alpha, depth).further()
+        BsdfKind::CoatedConductor { n, k, alpha, eta, coat_alpha, depth, facets } => {
+            CoatedConductor::new(n, k, alpha, eta, coat_alpha, depth, facets).further()
         }
         _ => Lanes::ZERO,
     }
@@ -294,19 +298,15 @@ impl Local {
 
     fn plastic(&self) -> Plastic {
         let (eta, alpha, specular, facets) = match self.kind {
-            BsdfKind::Plastic { eta, alpha, .. } => (eta, [alpha; 2], Lanes::ONE, Facets::SingleBounce),
-            BsdfKind::CoatedDiffuse { eta, alpha, specular, facets: Facets::Beckmann, .. } => {
-                (eta, alpha, specular, Facets::Beckmann)
-            }
-            BsdfKind::CoatedDiffuse { eta, alpha, specular, .. } => {
-                (eta, alpha, specular, Facets::SingleBounce)
-            }
-            _ => (1.0, [0.0; 2], Lanes::ZERO, Facets::SingleBounce),
+            BsdfKind::Plastic { eta, alpha, .. } => (eta, [alpha; 2], Lanes::ONE, Facets::Conserving),
+            BsdfKind::CoatedDiffuse { eta, alpha, specular, facets, .. } => (eta, alpha, specular, facets),
+            _ => (1.0, [0.0; 2], Lanes::ZERO, Facets::Conserving),
         };
         Plastic {
             eta: plastic::clamped(eta),
             alpha,
             micro: Micro::new(facets, alpha),
+            facets,
             specular,
             base: self.prepared,
         }
@@ -355,10 +355,13 @@ impl Local {
 
     fn coated_conductor(&self) -> CoatedConductor {
         let coated = match self.kind {
-            BsdfKind::CoatedConductor { n, k, alpha, eta, coat_alpha, depth } => {
-                CoatedConductor::new(n, k, alpha, eta, coat_alpha, depth)
+            BsdfKind::CoatedConductor { n, k, alpha, eta, coat_alpha, depth, facets } => {
+                CoatedConductor::new(n, k, alpha, eta, coat_alpha, depth, facets)
             }
-            _ => CoatedConductor::new(Lanes::ONE, Lanes::ZERO, [0.0; 2], 1.0, 0.0, 0.0),
+            _ => {
+                let (n, k, facets) = (Lanes::ONE, Lanes::ZERO, Facets::Conserving);
+                CoatedConductor::new(n, k, [0.0; 2], 1.0, 0.0, 0.0, facets)
+            }
         };
         CoatedConductor { further: self.prepared, ..coated }
     }

@@ -6,8 +6,9 @@ use crate::coat_albedo::{ETA_MAX, Table};
 use crate::conductor::GLOSSY;
 use crate::cosine::cosine_hemisphere;
 use crate::diffuse;
-use crate::facets::{Micro, half_reflected, is_smooth};
+use crate::facets::{Facets, Micro, along, half_reflected, is_smooth, mean_along};
 use crate::fresnel::{fresnel_dielectric, fresnel_dielectric_mean};
+use crate::glass_albedo::GlassLoss;
 use crate::lobes::Lobes;
 use crate::mirror;
 
@@ -23,6 +24,7 @@ pub(crate) struct Plastic {
     /// Roughness of the coat; [0, 0]: smooth.
     pub alpha: [f32; 2],
     pub micro: Micro,
+    pub facets: Facets,
     /// Factor of what the coat reflects.
     pub specular: Lanes,
     /// [`base`] of this surface.
@@ -40,20 +42,57 @@ fn one_minus_mean(eta: f32, alpha: [f32; 2]) -> f32 {
     1.0 - if is_smooth(alpha) { fresnel_dielectric_mean(eta) } else { Table::get().mean_along(alpha, eta) }
 }
 
-/// The constant factor of f_d.
-pub(crate) fn base(albedo: Lanes, eta: f32, alpha: [f32; 2]) -> Lanes {
+/// Whether facets of the coat lose what bounces more than once.
+fn loses(facets: Facets, alpha: [f32; 2]) -> bool {
+    facets != Facets::Conserving && !is_smooth(alpha)
+}
+
+/// The roughness at which the tables of GGX serve for these facets: Beckmann's have no long tail of steep slopes.
+fn tabulated(facets: Facets, alpha: [f32; 2]) -> [f32; 2] {
+    match facets {
+        Facets::Conserving | Facets::SingleBounce => alpha,
+        Facets::Beckmann => alpha.map(|a| BECKMANN_TO_GGX * a),
+    }
+}
+
+/// Chosen so that the albedo of a coat of either is about the same (`tests/random_walk.rs`).
+const BECKMANN_TO_GGX: f32 = 0.45;
+
+/// Means of single bounces at the coat: what it lets in, and what it reflects of light from within (whose part let out is
+/// the first over η², as étendue is kept).
+fn single_means(eta: f32, alpha: [f32; 2]) -> (f32, f32) {
+    let mean = |eta: f32| mean_along(alpha, |a| GlassLoss::mean(a, eta));
+    let enters = one_minus_mean(eta, alpha) - mean(eta);
+    (enters, 1.0 - enters / (eta * eta) - mean(1.0 / eta))
+}
+
+/// The constant factor of f_d. With single bounces a/(π η² (1 − a·R)), R their mean inner reflectance: then f_d is exactly what
+/// a random walk between the coat and a Lambertian base gives.
+pub(crate) fn base(albedo: Lanes, eta: f32, alpha: [f32; 2], facets: Facets) -> Lanes {
     let eta = clamped(eta);
+    let smooth = !loses(facets, alpha);
+    let alpha = tabulated(facets, alpha);
+    if !smooth {
+        let (_, inner) = single_means(eta, alpha);
+        return albedo.map(|a| a * FRAC_1_PI / (eta * eta * (1.0 - a * inner)));
+    }
     let f_in = fresnel_dielectric_mean(1.0 / eta);
     let scale = FRAC_1_PI * (1.0 - f_in) / one_minus_mean(eta, alpha);
     albedo.map(|a| a * scale / (1.0 - a * f_in))
 }
 
-/// The reflectance whose base, lit through the coat, scatters as one of reflectance `albedo` would if the light
-/// that the coat throws back onto the base kept no colour: a/(1 − F_in) instead of a/(1 − a·F_in), F_in the mean reflectance
-/// of a coat of index `eta` from within. For Mitsuba's `plastic` and `roughplastic` without `nonlinear`. Lanes stay in [0, 1].
-pub fn linear_plastic_albedo(albedo: Lanes, eta: f32) -> Lanes {
-    let f_in = fresnel_dielectric_mean(1.0 / clamped(eta));
-    albedo.map(|a| a / (1.0 - f_in + a * f_in))
+/// The reflectance whose base, lit through the coat of a [`crate::BsdfKind::CoatedDiffuse`], scatters as one of reflectance
+/// `albedo` would if the light that the coat throws back onto the base kept no colour: a/(1 − R) instead of a/(1 − a·R), R the
+/// mean reflectance of the coat from within. For Mitsuba's `plastic` and `roughplastic` without `nonlinear`. Lanes stay in
+/// [0, 1].
+pub fn linear_plastic_albedo(albedo: Lanes, eta: f32, alpha: [f32; 2], facets: Facets) -> Lanes {
+    let eta = clamped(eta);
+    let r = if loses(facets, alpha) {
+        single_means(eta, tabulated(facets, alpha)).1
+    } else {
+        fresnel_dielectric_mean(1.0 / eta)
+    };
+    albedo.map(|a| a / (1.0 - r + a * r))
 }
 
 /// The reflectance of a base under a clear coat of index `eta` that stands for one of reflectance `albedo` under a coat
@@ -88,8 +127,19 @@ impl Plastic {
         if is_smooth(self.alpha) {
             fresnel_dielectric(w.z, self.eta)
         } else {
-            Table::get().along(w, self.alpha, self.eta)
+            Table::get().along(w, tabulated(self.facets, self.alpha), self.eta)
         }
+    }
+
+    /// What enters through the coat.
+    #[inline]
+    fn enters(&self, w: Vec3) -> f32 {
+        let e = 1.0 - self.coat(w);
+        if !loses(self.facets, self.alpha) {
+            return e;
+        }
+        let alpha = along(w, tabulated(self.facets, self.alpha));
+        (e - GlassLoss::at(w.z, alpha, self.eta)).max(0.0)
     }
 
     /// Lobe of the coat.
@@ -102,7 +152,7 @@ impl Plastic {
     pub fn eval(&self, wo: Vec3, wi: Vec3, allowed: Lobes) -> Lanes {
         let mut f = Lanes::ZERO;
         if allowed.contains(diffuse::LOBES) {
-            f += self.base * ((1.0 - self.coat(wo)) * (1.0 - self.coat(wi)));
+            f += self.base * (self.enters(wo) * self.enters(wi));
         }
         if !is_smooth(self.alpha) && allowed.contains(GLOSSY) {
             let h = half_reflected(wo, wi);
@@ -122,9 +172,15 @@ impl Plastic {
         (s + d > 0.0).then(|| s / (s + d))
     }
 
-    /// Reflectance of the base through the coat, over 1 − E(o).
+    /// Reflectance of the base through the coat, over what enters.
     fn base_albedo(&self) -> Lanes {
-        self.base * (math::PI * one_minus_mean(self.eta, self.alpha))
+        let alpha = tabulated(self.facets, self.alpha);
+        let mean = if loses(self.facets, self.alpha) {
+            single_means(self.eta, alpha).0
+        } else {
+            one_minus_mean(self.eta, alpha)
+        };
+        self.base * (math::PI * mean)
     }
 
     #[inline]
@@ -169,6 +225,6 @@ impl Plastic {
     /// Directional albedo.
     pub fn albedo(&self, wo: Vec3) -> Lanes {
         let e = self.coat(wo);
-        self.specular * e + self.base_albedo() * (1.0 - e)
+        self.specular * e + self.base_albedo() * self.enters(wo)
     }
 }

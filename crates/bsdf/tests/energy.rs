@@ -123,7 +123,8 @@ fn white_coated_metals() {
             // (roughness of the coat, bound): errors are greatest within a few degrees of grazing.
             for (coat_alpha, bound) in [(0.0, 0.045), (0.1, 0.07), (0.5, 0.08)] {
                 let (n, k, alpha, depth) = (Lanes::ZERO, Lanes::splat(5.0), [alpha; 2], 0.0);
-                let kind = BsdfKind::CoatedConductor { n, k, alpha, eta, coat_alpha, depth };
+                let facets = Facets::Conserving;
+                let kind = BsdfKind::CoatedConductor { n, k, alpha, eta, coat_alpha, depth, facets };
                 returns_all(kind, &COSINES, bound);
                 returns_all(kind, &COSINES[..3], 0.7 * bound);
             }
@@ -196,7 +197,7 @@ fn coat_conversions() {
     let less = absorbing_coat_albedo(a, 1.5, 0.01, 5);
     assert!(less.0.y < 0.49 && less.0.z < 0.96 && less.0.z > 0.8, "{less:?}");
     // a/(1 − F) instead of a/(1 − aF): less where a < 1.
-    let linear = linear_plastic_albedo(a, 1.5);
+    let linear = linear_plastic_albedo(a, 1.5, [0.0; 2], Facets::Conserving);
     let f = fresnel_dielectric_mean(1.0 / 1.5);
     assert!((linear.0.y / (1.0 - linear.0.y * f) - 0.5 / (1.0 - f)).abs() < 1e-5 && linear.0.z == 1.0);
 }

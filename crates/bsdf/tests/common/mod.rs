@@ -54,7 +54,15 @@ pub fn thin(eta: f32, alpha: [f32; 2]) -> BsdfKind {
 
 #[allow(dead_code, reason = "each test file uses its share of this module")]
 pub fn coated_conductor(alpha: [f32; 2], coat_alpha: f32, depth: f32) -> BsdfKind {
-    BsdfKind::CoatedConductor { n: GOLD.0, k: GOLD.1, alpha, eta: 1.5, coat_alpha, depth }
+    BsdfKind::CoatedConductor {
+        n: GOLD.0,
+        k: GOLD.1,
+        alpha,
+        eta: 1.5,
+        coat_alpha,
+        depth,
+        facets: Facets::Conserving,
+    }
 }
 
 #[allow(dead_code, reason = "each test file uses its share of this module")]
