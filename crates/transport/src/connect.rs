@@ -1,12 +1,13 @@
-use bsdf::TransportMode;
+use bsdf::{BsdfKind, TransportMode};
 use color::Lanes;
+use math::{FRAC_1_PI, Vec3};
 use sampling::Sampler;
 use scene::light::LightHit;
 use scene::{LightId, Scene};
 
-use crate::mis::{End, connection_weight, direct_weight, emission_weight, merging_weight};
+use crate::mis::{End, connection_weight, direct_weight, emission_weight};
 use crate::project::reflected;
-use crate::subpath::{EyeEnd, PathVertex, density, geometric_cos, merging};
+use crate::subpath::{EyeEnd, PathVertex, density, geometric_cos, merging, survival};
 use crate::{Direct, Emission, LightDensities, LightVertex, SubpathMis, Vertex};
 
 /// Joins a vertex of an eye path and one of a light path: weighted radiance toward `eye.vertex.wo`, not multiplied by the
@@ -51,7 +52,7 @@ pub fn connect(scene: &Scene, eye: &PathVertex, light: &LightVertex, eta: f64) -
 }
 
 /// The geometric normal on the side of `w`.
-fn facing(vertex: &Vertex, w: math::Vec3) -> math::Vec3 {
+fn facing(vertex: &Vertex, w: Vec3) -> Vec3 {
     let ng = vertex.hit.ng;
     if ng.dot(w) < 0.0 { -ng } else { ng }
 }
@@ -118,25 +119,59 @@ fn weight_of(scene: &Scene, light: LightId, end: &EyeEnd, hit: Option<LightHit>,
     emission_weight(eta, &end.leaving, found.direct / found.cos, found.emitted / found.cos)
 }
 
-/// Weights of the photons that are merged at one vertex of an eye path.
+/// Weights of the photons that are merged at one vertex of an eye path (Georgiev 2012, eq. 38, 39).
 #[derive(Clone, Copy, Debug)]
 pub struct MergingWeights<'v> {
     eye: &'v PathVertex,
-    eta: f64,
+    eta: f32,
+    lambert: Option<Lambert>,
+}
+
+/// What all photons share at a Lambertian vertex.
+#[derive(Clone, Copy, Debug)]
+struct Lambert {
+    normal: Vec3,
+    /// Density with which the eye path goes on, per cosine.
+    forward: f32,
+    /// What competes on the eye path's side, with η.
+    eye: f32,
 }
 
 impl<'v> MergingWeights<'v> {
     /// For photons within a radius r, with η = π·r²·n.
     pub fn new(eye: &'v PathVertex, eta: f64) -> Self {
-        Self { eye, eta }
+        let PathVertex { vertex, mis } = eye;
+        let lambert = matches!(vertex.bsdf.kind(), BsdfKind::Diffuse { .. }).then(|| {
+            let survival = survival(&vertex.bsdf, vertex.wo);
+            let reverse = survival * FRAC_1_PI * vertex.bsdf.abs_cos(vertex.wo);
+            Lambert {
+                normal: vertex.bsdf.ns(),
+                forward: survival * FRAC_1_PI,
+                eye: (eta + mis.before(eta, f64::from(reverse))) as f32,
+            }
+        });
+        Self { eye, eta: eta as f32, lambert }
     }
 
-    /// Of a photon that arrived from `wi` with those numbers.
+    /// Of a photon that arrived from `wi`, on the side of `wo`, with those numbers.
     #[inline]
-    pub fn weight(&self, light: &SubpathMis, wi: math::Vec3) -> f32 {
-        let (vertex, mis) = (&self.eye.vertex, &self.eye.mis);
+    pub fn weight(&self, light: &SubpathMis, wi: Vec3) -> f32 {
+        match &self.lambert {
+            Some(l) => {
+                let reverse = l.forward * l.normal.dot(wi).abs();
+                let dvc = light.rest + self.eta * light.merges;
+                self.eta / (l.eye + light.edge + dvc * reverse)
+            }
+            None => self.weight_any(light, wi),
+        }
+    }
+
+    #[inline(never)]
+    fn weight_any(&self, light: &SubpathMis, wi: Vec3) -> f32 {
+        let PathVertex { vertex, mis } = self.eye;
         let light_reverse = density(vertex, vertex.wo, wi, TransportMode::Radiance);
         let eye_reverse = density(vertex, wi, vertex.wo, TransportMode::Importance);
-        merging_weight(self.eta, light, light_reverse, mis, eye_reverse)
+        let eta = f64::from(self.eta);
+        (eta / (eta + light.before(eta, light_reverse) + mis.before(eta, eye_reverse))) as f32
     }
 }

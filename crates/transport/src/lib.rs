@@ -15,16 +15,14 @@ mod subpath;
 mod walk;
 
 pub use connect::{MergingWeights, connect, connect_light, emission_against_all, escape_against_all};
-pub use direct::{
-    Direct, Emission, direct, direct_against, emission_at, emission_escaped, power_heuristic,
-};
+pub use direct::{Direct, Emission, direct, direct_against, emission_at, emission_escaped, power_heuristic};
 pub use emit::{EmittedPhoton, emit, emit_mixed, emit_toward_targets};
 pub use light_densities::LightDensities;
 pub use light_path::{LightClass, LightVertex, trace_light_path};
 pub use merge::{Lookup, Merged, irradiance, merge, merge_within, nearest_irradiance};
 pub use mis::{
     Connections, End, Scattering, SubpathMis, connection_weight, direct_weight, emission_weight,
-    merging_weight, projection_weight,
+    projection_weight,
 };
 pub use path_class::{LightLayer, PathClass};
 pub use photon::{PhotonBalance, PhotonBatch, PhotonJob, PhotonPaths, trace_photons};

@@ -5,7 +5,7 @@ use sampling::Sampler;
 use scene::{LightId, Scene};
 
 use crate::subpath::{PathVertex, Subpath};
-use crate::{Connections, PathClass, Walk};
+use crate::{Connections, LightLayer, PathClass, Walk};
 
 /// Which events a light path has had, as far as the layers of whole paths depend on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -25,6 +25,17 @@ impl LightClass {
             (true, _) => self,
             (false, n) => Self { diffuse: (n + 1).min(2), ..self },
         }
+    }
+
+    /// The layers of whole paths whose `eye` part ends where light paths of each class do, by [`Self::index`].
+    pub fn layers_after(eye: PathClass) -> [LightLayer; 6] {
+        std::array::from_fn(|i| Self { diffuse: i as u8 / 2, specular_first: i % 2 == 1 }.after(eye).layer())
+    }
+
+    /// From 0 to 5.
+    #[inline]
+    pub fn index(self) -> usize {
+        usize::from(2 * self.diffuse) + usize::from(self.specular_first)
     }
 
     /// The class of a whole path of which `eye` holds the events from the camera on, up to this light path.
@@ -114,6 +125,7 @@ mod tests {
                 let eye = (0..split).fold(PathClass::default(), |c, i| c.scattered(specular(i)));
                 let light = (split..6).rev().fold(LightClass::default(), |c, i| c.scattered(specular(i)));
                 assert_eq!(light.after(eye).layer(), whole.layer(), "{bits:06b} at {split}");
+                assert_eq!(LightClass::layers_after(eye)[light.index()], whole.layer());
             }
         }
     }

@@ -92,7 +92,8 @@ impl SubpathMis {
 
     /// All that competes on this side of a vertex but merging at the vertex itself; `reverse`: density per steradian with
     /// which the other subpath would go on along this one.
-    fn before(&self, eta: f64, reverse: f64) -> f64 {
+    #[inline]
+    pub(crate) fn before(&self, eta: f64, reverse: f64) -> f64 {
         f64::from(self.edge) + (f64::from(self.rest) + eta * f64::from(self.merges)) * reverse
     }
 
@@ -124,18 +125,6 @@ impl End {
 /// Weight of a connection of two vertices (eq. 40, 41).
 pub fn connection_weight(eta: f64, light: &End, eye: &End) -> f32 {
     weight(light.share(eta) + eye.share(eta))
-}
-
-/// Weight of a merge (eq. 38, 39): `light_reverse` is the density with which the eye path would go on along the light
-/// path, `eye_reverse` the other way round.
-pub fn merging_weight(
-    eta: f64,
-    light: &SubpathMis,
-    light_reverse: f64,
-    eye: &SubpathMis,
-    eye_reverse: f64,
-) -> f32 {
-    weight((light.before(eta, light_reverse) + eye.before(eta, eye_reverse)) / eta)
 }
 
 /// Weight of light tracing (eq. 46, 47): the end of the light path, reached from the camera with `reached` camera paths

@@ -1,12 +1,15 @@
 //! The eye paths of a pass.
 
 use bsdf::Lobes;
+use color::Lanes;
 use math::PI;
 use photons::Kernel;
 use sampling::{Domain, Sampler, Streams};
+use scene::LightId;
 use transport::{
-    Emission, LightVertex, PathClass, PathVertex, Subpath, connect, connect_light, emission_against_all,
-    escape_against_all, merge_within, trace_light_path,
+    Connections, Emission, LightClass, LightLayer, LightVertex, MergingWeights, PathClass, PathVertex,
+    Subpath, connect, connect_light, emission_against_all, escape_against_all, merge_within,
+    trace_light_path,
 };
 
 use super::{Merging, Plan};
@@ -74,7 +77,7 @@ impl Tracer for Eye<'_> {
                     (radius, plan.eta(radius))
                 });
                 let reached = Reached { at: &at, class: class.scattered(specular), radius, eta };
-                if plan.connections == transport::Connections::Made {
+                if plan.connections == Connections::Made {
                     self.join(&path, &reached, &mut lights, &mut sampler, sink);
                 }
                 if plan.merging != Merging::Never {
@@ -151,7 +154,8 @@ impl Eye<'_> {
         let Reached { at, class, radius, eta } = *here;
         let paths = &self.maps.light_side.paths;
         let most = self.plan.max_depth - path.walk.depth - 1;
-        let weigher = transport::MergingWeights::new(at, eta);
+        let weights = MergingWeights::new(at, eta);
+        let mut sums = Sums::new(class);
         let count = merge_within(&stored.map, &at.vertex, radius, Kernel::Constant, |photon, radiance| {
             let light = &paths[photon.slot as usize];
             if u32::from(light.depth) > most {
@@ -159,14 +163,47 @@ impl Eye<'_> {
             }
             let weight = match self.plan.merging {
                 Merging::First => 1.0,
-                _ => weigher.weight(&light.mis, photon.direction()),
+                _ => weights.weight(&light.mis, photon.direction()),
             };
-            let layer = light.class.after(class).layer();
-            let origin = Origin { layer, technique: Technique::Merge, light: Some(light.light) };
-            sink.add(origin, path.walk.throughput * radiance * weight);
+            if light.light != sums.light {
+                sums.give(path.walk.throughput, sink);
+                sums.light = light.light;
+            }
+            sums.add(light.class, radiance * weight);
         });
+        sums.give(path.walk.throughput, sink);
         if path.walk.depth == 0 && count > 0 {
             sink.density(count as f32 / (PI * radius * radius));
+        }
+    }
+}
+
+/// Photons of one light, by their paths' classes.
+struct Sums {
+    layers: [LightLayer; 6],
+    light: LightId,
+    sums: [Lanes; 6],
+}
+
+impl Sums {
+    fn new(eye: PathClass) -> Self {
+        Self { layers: LightClass::layers_after(eye), light: LightId(0), sums: [Lanes::ZERO; 6] }
+    }
+
+    #[inline]
+    fn add(&mut self, class: LightClass, radiance: Lanes) {
+        self.sums[class.index()] += radiance;
+    }
+
+    /// Hands over what there is.
+    #[inline]
+    fn give(&mut self, throughput: Lanes, sink: &mut impl Sink) {
+        for (sum, layer) in self.sums.iter_mut().zip(self.layers) {
+            if !sum.is_zero() {
+                let origin = Origin { layer, technique: Technique::Merge, light: Some(self.light) };
+                sink.add(origin, throughput * *sum);
+                *sum = Lanes::ZERO;
+            }
         }
     }
 }

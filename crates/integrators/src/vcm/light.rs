@@ -3,7 +3,9 @@
 use photons::{Photon, PhotonFlags, PhotonMap};
 use sampling::{Domain, Streams};
 use scene::{LightId, Scene};
-use transport::{Connections, LightClass, LightVertex, SubpathMis, is_seen, project, trace_light_path};
+use transport::{
+    Connections, LightClass, LightVertex, PathClass, SubpathMis, is_seen, project, trace_light_path,
+};
 
 use super::splat::Splat;
 use super::{Merging, Plan};
@@ -110,7 +112,7 @@ impl Batch {
             return;
         }
         let specular = !vertex.at.vertex.bsdf.has_diffuse();
-        let layer = vertex.class.after(transport::PathClass::default().scattered(specular)).layer();
+        let layer = vertex.class.after(PathClass::default().scattered(specular)).layer();
         let film_position = projection.film_position;
         self.trace.splats.push(Splat { film_position, radiance, layer, light: vertex.light });
         self.trace.radii.push(radius);
