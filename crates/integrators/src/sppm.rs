@@ -123,10 +123,6 @@ struct Eye<'a> {
     rays: Lobes,
 }
 
-fn add(sink: &mut impl Sink, layer: LightLayer, technique: Technique, radiance: Lanes) {
-    sink.add(Origin { layer, technique, light: None }, radiance);
-}
-
 impl Tracer for Eye<'_> {
     #[inline]
     fn trace<S: Sink>(&self, CameraPath { mut walk, mut sampler, .. }: CameraPath<'_>, sink: &mut S) {
@@ -217,11 +213,12 @@ impl Eye<'_> {
                 sums[layer_of(depth, photon.flags())] += radiance;
             }
         });
-        let layers = [LightLayer::Direct, LightLayer::Caustic, LightLayer::Indirect];
-        for (layer, sum) in layers.into_iter().zip(sums) {
-            add(sink, layer, Technique::Merge, walk.throughput * sum);
-        }
         if count > 0 {
+            let layers = [LightLayer::Direct, LightLayer::Caustic, LightLayer::Indirect];
+            for (layer, sum) in layers.into_iter().zip(sums) {
+                let origin = Origin { layer, technique: Technique::Merge, light: None };
+                sink.add(origin, walk.throughput * sum);
+            }
             sink.density(count as f32 / (std::f32::consts::PI * radius * radius));
         }
     }
