@@ -30,6 +30,14 @@ pub struct PathVertex {
     pub mis: SubpathMis,
 }
 
+impl PathVertex {
+    /// Whether photons are merged there: on surfaces that scatter by more than delta lobes, and to one side only.
+    #[inline]
+    pub fn is_merged(&self) -> bool {
+        is_merged(&self.vertex.bsdf)
+    }
+}
+
 /// What an eye path knows where it meets a light.
 #[derive(Clone, Copy, Debug)]
 pub struct EyeEnd {
@@ -136,11 +144,16 @@ pub(crate) fn survival(bsdf: &Bsdf, w: Vec3) -> f32 {
     bsdf.albedo(w).max().clamp(0.02, 1.0)
 }
 
-/// 1 where photons are merged, else 0: on surfaces that scatter by more than delta lobes, and to one side only.
+/// 1 where photons are merged, else 0.
 #[inline]
 pub(crate) fn merging(bsdf: &Bsdf) -> f64 {
-    let merges = !bsdf.is_delta_only() && !bsdf.lobes().contains(Lobes::TRANSMISSION);
-    if merges { 1.0 } else { 0.0 }
+    if is_merged(bsdf) { 1.0 } else { 0.0 }
+}
+
+/// Whether photons are merged: on surfaces that scatter by more than delta lobes, and to one side only.
+#[inline]
+fn is_merged(bsdf: &Bsdf) -> bool {
+    !bsdf.is_delta_only() && !bsdf.lobes().contains(Lobes::TRANSMISSION)
 }
 
 /// |cos θi| times the density of the delta lobe that leads back over that of the one which leads on. Both are chosen with

@@ -118,13 +118,17 @@ struct Checker<'s> {
     fault: f32,
 }
 
+fn merging(vertex: &nephroid_transport::Vertex) -> f64 {
+    if vertex.bsdf.lobes().contains(Lobes::TRANSMISSION) { 0.0 } else { 1.0 }
+}
+
 fn close(found: f64, expected: f64) -> bool {
     (found - expected).abs() <= TOLERANCE * expected.abs().max(1e-3)
 }
 
 impl Checker<'_> {
     /// The recursion over a whole path from its light: what a light path would have at each vertex.
-    fn from_light(&self, path: &FullPath) -> Vec<SubpathMis> {
+    fn as_light_path(&self, path: &FullPath) -> Vec<SubpathMis> {
         let first = &path.nodes[0];
         let start = LightDensities::of_start(self.scene, path.light.id, &path.light.le, first.vertex.hit.p);
         self.along(
@@ -136,7 +140,7 @@ impl Checker<'_> {
     }
 
     /// The same from the camera, in the order of the walk.
-    fn from_camera(&self, path: &FullPath) -> Vec<SubpathMis> {
+    fn as_eye_path(&self, path: &FullPath) -> Vec<SubpathMis> {
         let nodes: Vec<&Node> = path.nodes.iter().rev().collect();
         let density_w =
             FILM_DENSITY * f64::from(self.scene.camera().pdf_we_w(path.lens, -nodes[0].to_camera));
@@ -169,7 +173,7 @@ impl Checker<'_> {
                     cos: cos(on),
                     forward: density(back, on, TransportMode::Radiance),
                     reverse: density(on, back, TransportMode::Radiance),
-                    merging: 1.0,
+                    merging: merging(&node.vertex),
                 };
                 arrived.scattered(&event, Connections::Made)
             };
@@ -187,7 +191,7 @@ impl Checker<'_> {
         if !total.is_normal() {
             return Ok(());
         }
-        let (light, mut eye) = (self.from_light(path), self.from_camera(path));
+        let (light, mut eye) = (self.as_light_path(path), self.as_eye_path(path));
         eye.reverse();
         let m = path.nodes.len();
         let at = |i: usize, wo, mis: &[SubpathMis]| {
@@ -223,7 +227,7 @@ impl Checker<'_> {
                     cos: cos(last, last.to_light),
                     forward: density(last.to_camera, last.to_light),
                     reverse: density(last.to_light, last.to_camera),
-                    merging: 1.0,
+                    merging: merging(&last.vertex),
                 };
                 leaving.scattered(&event, Connections::Made)
             };
@@ -301,8 +305,8 @@ impl Checker<'_> {
         let same = |found: f32, expected: f32| {
             (f64::from(found) - f64::from(expected)).abs() <= TOLERANCE * f64::from(expected).max(1e-6)
         };
-        let from_light = self.from_light(path);
-        let from_camera = self.from_camera(path);
+        let from_light = self.as_light_path(path);
+        let from_camera = self.as_eye_path(path);
         for (walked, expected) in [(light, from_light), (eye, from_camera)] {
             for (at, e) in walked.vertices.iter().zip(expected) {
                 self.tally.walked += 1;

@@ -80,11 +80,11 @@ impl Tracer for Eye<'_> {
                 if plan.connections == Connections::Made {
                     self.join(&path, &reached, &mut lights, &mut sampler, sink);
                 }
-                if plan.merging != Merging::Never {
+                if plan.merging != Merging::Never && at.is_merged() {
                     self.merge(&path, &reached, sink);
-                }
-                if plan.merging == Merging::First {
-                    lobes = Lobes::DELTA;
+                    if plan.merging == Merging::First {
+                        lobes = Lobes::DELTA;
+                    }
                 }
             }
             let Some(scattered) = path.scatter(&at, lobes, &mut sampler) else { return };

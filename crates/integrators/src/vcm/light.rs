@@ -85,7 +85,7 @@ impl Batch {
         if plan.connections == Connections::Made {
             self.project(scene, plan, vertex);
         }
-        if plan.merging != Merging::Never {
+        if plan.merging != Merging::Never && vertex.at.is_merged() {
             let LightVertex { at, flux, depth, class, light, .. } = *vertex;
             let (wi, ng) = (at.vertex.wo, at.vertex.hit.ng);
             self.photons.push(Photon {

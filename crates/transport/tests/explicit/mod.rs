@@ -239,8 +239,8 @@ impl<'p> Explicit<'p> {
                 pdf * survival(&n.vertex, n.to_camera)
             }
         };
-        for i in 1..m {
-            from_light.push(forward(i - 1) * cos(i, nodes[i].to_light) / d2(p(i), p(i - 1)));
+        for (i, node) in nodes.iter().enumerate().skip(1) {
+            from_light.push(forward(i - 1) * cos(i, node.to_light) / d2(p(i), p(i - 1)));
         }
         let mut from_eye = vec![0.0; m + 1];
         let camera = f64::from(scene.camera().pdf_we_w(path.lens, -nodes[m - 1].to_camera));
