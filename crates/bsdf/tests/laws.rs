@@ -8,7 +8,9 @@ use common::{
     white_conductor,
 };
 use math::Vec3;
-use nephroid_bsdf::{Bsdf, BsdfKind, Lobes, TransportMode, fresnel_conductor, fresnel_dielectric};
+use nephroid_bsdf::{
+    Bsdf, BsdfKind, Facets, Film, Lobes, TransportMode, fresnel_conductor, fresnel_dielectric,
+};
 use sampling::{Domain, Sampler, warp};
 use testkit::reciprocity_error;
 
@@ -250,6 +252,96 @@ fn small_roughness_tends_to_the_delta() {
         assert!((mean_weight(&rough, wo, 64).mean - f64::from(f.0.x)).abs() < 2e-3);
         let d = rough.sample(wo, 0.9, [0.3, 0.7], RADIANCE).unwrap();
         assert!((d.wi - lobe.wi).length() < 1e-2);
+    }
+}
+
+/// The general kinds contain the plain ones.
+#[test]
+fn general_kinds_contain_plain_ones() {
+    let (n, k) = GOLD;
+    let (facets, film, one) = (Facets::Conserving, Film::NONE, Lanes::ONE);
+    let albedo = Lanes::rgb(0.8, 0.3, 0.1);
+    for a in [0.0, 0.05, 0.4] {
+        let alpha = [a; 2];
+        let pairs = [
+            (conductor(a), BsdfKind::RoughConductor { n, k, reflectance: one, alpha, facets, film }),
+            (
+                plastic(0.8, 1.5, a),
+                BsdfKind::CoatedDiffuse { albedo, specular: one, eta: 1.5, alpha, facets },
+            ),
+            (
+                BsdfKind::Diffuse { albedo },
+                BsdfKind::DiffuseTransmission { reflectance: albedo, transmittance: Lanes::ZERO },
+            ),
+            (BsdfKind::Diffuse { albedo }, BsdfKind::RoughDiffuse { albedo, roughness: 0.0 }),
+        ];
+        for (plain, general) in pairs {
+            let (p, g) = (surface(plain, 0.0), surface(general, 0.0));
+            for cos in [0.9, 0.3] {
+                let (wo, wi) = (direction(&p, cos, 0.1), direction(&p, 0.7, 3.0));
+                let (a, b) = (p.eval(wo, wi, RADIANCE), g.eval(wo, wi, RADIANCE));
+                assert!((a - b).0.abs().max_element() <= 1e-5 * a.max(), "{general:?}: {a:?} {b:?}");
+                let (a, b) = (p.pdf_w(wo, wi, RADIANCE), g.pdf_w(wo, wi, RADIANCE));
+                assert!((a - b).abs() <= 1e-5 * a, "{general:?}: {a} {b}");
+                let [a, b] = [p, g].map(|s| s.delta_lobes(wo, RADIANCE)[0].map(|l| l.weight.to_rgb()));
+                assert_eq!(a, b, "{general:?}");
+            }
+        }
+    }
+}
+
+/// Rough glass tends to smooth glass, on both sides and in both modes; and radiance is scaled against flux by η².
+#[test]
+fn rough_glass_tends_to_the_delta() {
+    let (reflectance, transmittance) = (Lanes::ONE, Lanes::ONE);
+    let (facets, film) = (Facets::Conserving, Film::NONE);
+    let rough = |a: f32| {
+        let alpha = [a; 2];
+        surface(BsdfKind::RoughDielectric { eta: 1.5, alpha, reflectance, transmittance, facets, film }, 0.0)
+    };
+    let (smooth, fine) = (surface(GLASS, 0.0), rough(1e-3));
+    for cos in [0.9, 0.5, -0.95, -0.8] {
+        let wo = direction(&smooth, cos, 1.0);
+        for mode in [RADIANCE, TransportMode::Importance] {
+            for lobe in smooth.delta_lobes(wo, mode).into_iter().flatten() {
+                let side = if lobe.eta == 1.0 { Lobes::REFLECTION } else { Lobes::TRANSMISSION };
+                let draw = |i: usize| {
+                    let u = [(i as f32 + 0.5) / 64.0, (i as f32 * 0.618).fract()];
+                    fine.sample_lobes(wo, Lobes::GLOSSY | side, 0.99, u, mode)
+                };
+                let drawn: Vec<_> = (0..64).filter_map(draw).collect();
+                let mean = drawn.iter().map(|d| d.weight.max()).sum::<f32>() / 64.0;
+                assert!((mean / lobe.weight.max() - 1.0).abs() < 0.02, "{cos} {mode:?}: {mean} {lobe:?}");
+                assert!(drawn.iter().all(|d| (d.eta - lobe.eta).abs() < 1e-6));
+                let near = drawn.iter().filter(|d| (d.wi - lobe.wi).length() < 0.01).count();
+                assert!(near > 32, "{cos} {mode:?}: {near} of 64 near {lobe:?}");
+            }
+        }
+    }
+    let b = rough(0.3);
+    for cos in [0.7, -0.95] {
+        let wo = direction(&b, cos, 0.0);
+        let allowed = Lobes::GLOSSY | Lobes::TRANSMISSION;
+        let draw = |mode| b.sample_lobes(wo, allowed, 0.9, [0.7, 0.6], mode).unwrap();
+        let (radiance, flux) = (draw(RADIANCE), draw(TransportMode::Importance));
+        let ratio = flux.weight.max() / radiance.weight.max() / (flux.eta * flux.eta);
+        assert!((ratio - 1.0).abs() < 1e-5 && flux.wi == radiance.wi, "{ratio}");
+    }
+}
+
+/// The slab's two faces: R = 2F/(1 + F), and what is not reflected goes straight on.
+#[test]
+fn thin_glass_in_closed_form() {
+    let (reflectance, transmittance) = (Lanes::ONE, Lanes::ONE);
+    let kind = BsdfKind::ThinDielectric { eta: 1.5, alpha: [0.0; 2], reflectance, transmittance };
+    let b = surface(kind, 0.0);
+    for cos in [1.0, 0.4, -0.1] {
+        let wo = direction(&b, cos, 2.0);
+        let [r, t] = b.delta_lobes(wo, RADIANCE).map(Option::unwrap);
+        let f = fresnel_dielectric(b.abs_cos(wo), 1.5);
+        assert!((r.weight.max() - 2.0 * f / (1.0 + f)).abs() < 1e-6);
+        assert!((r.weight.max() + t.weight.max() - 1.0).abs() < 1e-6);
+        assert!((t.wi + wo).length() < 1e-6 && t.eta == 1.0);
     }
 }
 

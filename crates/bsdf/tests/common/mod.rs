@@ -140,6 +140,7 @@ pub fn further_kinds() -> Vec<BsdfKind> {
 }
 
 /// A surface that faces no axis, its shading normal tilted against the geometric one by `tilt` degrees.
+#[allow(dead_code, reason = "each test file uses its share of this module")]
 pub fn surface(kind: BsdfKind, tilt: f32) -> Bsdf {
     let frame = Frame::from_zx(Vec3::new(0.48, -0.6, 0.64), Vec3::new(0.3, 0.9, -0.2));
     let (s, c) = tilt.to_radians().sin_cos();
@@ -147,6 +148,7 @@ pub fn surface(kind: BsdfKind, tilt: f32) -> Bsdf {
 }
 
 /// The direction at `cos_theta` from the shading normal and azimuth `phi`.
+#[allow(dead_code, reason = "each test file uses its share of this module")]
 pub fn direction(b: &Bsdf, cos_theta: f32, phi: f32) -> Vec3 {
     b.frame().to_world(math::spherical_direction(cos_theta, phi)).normalize()
 }
