@@ -20,7 +20,7 @@ use crate::plastic::{self, Plastic};
 use crate::reflectance::Reflectance;
 use crate::rough_diffuse::RoughDiffuse;
 use crate::sheen::{self, Sheen};
-use crate::slab::Slab;
+use crate::slab::{self, Slab};
 use crate::thin::Thin;
 use crate::translucent::Translucent;
 
@@ -57,6 +57,7 @@ pub(crate) fn prepared(kind: &BsdfKind) -> Lanes {
         BsdfKind::CoatedConductor { n, k, alpha, eta, coat_alpha, depth, facets } => {
             CoatedConductor::new(n, k, alpha, eta, coat_alpha, depth, facets).further()
         }
+        BsdfKind::Principled(p) => slab::multiple(&p),
         _ => Lanes::ZERO,
     }
 }
@@ -88,7 +89,7 @@ impl Local {
                 self.glass().eval(wo, wi, allowed, mode)
             }
             BsdfKind::CoatedConductor { .. } if glossy => self.coated_conductor().eval(wo, wi),
-            BsdfKind::Principled(p) => Slab::new(&p, self.side).eval(wo, wi, allowed, mode),
+            BsdfKind::Principled(p) => Slab::new(&p, self.side, self.prepared).eval(wo, wi, allowed, mode),
             _ => Lanes::ZERO,
         }
     }
@@ -119,7 +120,7 @@ impl Local {
                 self.glass().pdf_w(wo, wi, allowed)
             }
             BsdfKind::CoatedConductor { .. } => self.coated_conductor().pdf_w(wo, wi, allowed),
-            BsdfKind::Principled(p) => Slab::new(&p, self.side).pdf_w(wo, wi, allowed),
+            BsdfKind::Principled(p) => Slab::new(&p, self.side, self.prepared).pdf_w(wo, wi, allowed),
             _ => 0.0,
         }
     }
@@ -175,7 +176,9 @@ impl Local {
                 self.glass().sample(wo, allowed, u_lobe, u, mode)
             }
             BsdfKind::CoatedConductor { .. } => self.coated_conductor().sample(wo, allowed, u_lobe, u),
-            BsdfKind::Principled(p) => Slab::new(&p, self.side).sample(wo, allowed, u_lobe, u, mode),
+            BsdfKind::Principled(p) => {
+                Slab::new(&p, self.side, self.prepared).sample(wo, allowed, u_lobe, u, mode)
+            }
             BsdfKind::Dielectric { eta, tint } => {
                 dielectric::sample(wo, self.eta(eta), tint, allowed, u_lobe, mode).map(|(l, p)| l.drawn(p))
             }
@@ -250,7 +253,7 @@ impl Local {
             BsdfKind::ThinDielectric { .. } => self.thin().albedo(wo.z),
             BsdfKind::RoughDielectric { .. } => self.glass().albedo(wo.z),
             BsdfKind::CoatedConductor { .. } => self.coated_conductor().albedo(wo.z),
-            BsdfKind::Principled(p) => Slab::new(&p, self.side).albedo(wo),
+            BsdfKind::Principled(p) => Slab::new(&p, self.side, self.prepared).albedo(wo),
             BsdfKind::Null => Lanes::ONE,
             BsdfKind::Black => Lanes::ZERO,
         }

@@ -67,16 +67,30 @@ fn single(alpha: [f32; 2], reflectance: Reflectance) -> Rough {
     Rough { micro, reflectance, alpha: isotropic(alpha), multiple: Lanes::ZERO }
 }
 
+/// What the metal of a slab reflects in a facet.
+fn metallic(p: &PrincipledParameters) -> Reflectance {
+    Reflectance::schlick(p.base_color).under(p.film, p.film_weight)
+}
+
+/// [`conductor::multiple`] of the metal, by which a slab is prepared once per hit.
+pub(crate) fn multiple(packed: &Principled) -> Lanes {
+    let p = packed.parameters();
+    if p.metallic == 0.0 {
+        return Lanes::ZERO;
+    }
+    let micro = Micro::new(Facets::Conserving, p.alpha.map(|a| a.max(ALPHA_MIN)));
+    conductor::multiple(&micro, &metallic(&p))
+}
+
 impl Slab {
-    pub fn new(packed: &Principled, side: Side) -> Self {
+    /// `multiple` is [`multiple`] of the same.
+    pub fn new(packed: &Principled, side: Side, multiple: Lanes) -> Self {
         let mut p = packed.parameters();
         p.alpha = p.alpha.map(|a| a.max(ALPHA_MIN));
         p.clearcoat_alpha = p.clearcoat_alpha.max(ALPHA_MIN);
         let alpha = isotropic(p.alpha);
         let eta = p.eta.max(1.0 / p.eta).clamp(1.0, ETA_MAX);
         let micro = Micro::new(Facets::Conserving, p.alpha);
-        let metallic = Reflectance::schlick(p.base_color).under(p.film, p.film_weight);
-        let multiple = if p.metallic > 0.0 { conductor::multiple(&micro, &metallic) } else { Lanes::ZERO };
         let tint = p.specular_color * p.specular;
         let clear = if !packed.has_transmission() {
             Clear::None
@@ -102,7 +116,7 @@ impl Slab {
         Self {
             eta,
             outer: if packed.is_sided() { side } else { Side::Front },
-            metal: Rough { micro, reflectance: metallic, alpha, multiple },
+            metal: Rough { micro, reflectance: metallic(&p), alpha, multiple },
             gloss: single(p.alpha, Reflectance::dielectric(eta).under(p.film, p.film_weight)),
             clear,
             coat: single([p.clearcoat_alpha; 2], Reflectance::dielectric(COAT_ETA)),
