@@ -5,7 +5,7 @@ use std::path::Path;
 
 use nephroid::{Checkpoint, CheckpointError, Film, said};
 
-use crate::drive::noise_line;
+use crate::drive::{noise_line, passes};
 use crate::failure::{Failure, OK, Outcome};
 use crate::info::{bytes, row, settings};
 use crate::progress::duration;
@@ -31,7 +31,7 @@ pub fn info(path: &Path) -> Outcome {
         Film::MAX_PASSES => "without end".to_owned(),
         _ => said(std::slice::from_ref(&info.passes)),
     };
-    row(&mut text, "holds", &format!("{} passes: {}", film.passes(), said(film.pass_ranges())));
+    row(&mut text, "holds", &format!("{}: {}", passes(film.passes()), said(film.pass_ranges())));
     let time = info.time.map_or(String::new(), |time| format!(", {}", duration(time)));
     row(&mut text, "asked for", &format!("{asked}{time}"));
     row(&mut text, "took", &duration(info.elapsed));

@@ -90,7 +90,7 @@ impl Teller {
             Event::CheckpointWritten { passes, bytes, .. } => self.saved = Some((passes, bytes)),
             Event::CheckpointFailed { error, .. } => {
                 let older = self.saved.map_or(String::new(), |(passes, _)| {
-                    format!("; the checkpoint of {passes} passes is still there")
+                    format!("; the checkpoint of {} is still there", self::passes(passes))
                 });
                 warn(progress, &format!("{error}{older}\n  = help: {}", error.help()));
             }
@@ -120,30 +120,35 @@ fn warn(progress: &Progress, warning: &(impl ToString + ?Sized)) {
     }
 }
 
-fn say_saved(session: &Session, passes: u64, size: u64) {
+fn say_saved(session: &Session, count: u64, size: u64) {
     if let Some(file) = session.checkpoint_file() {
-        say::say(&format!("saved {} ({passes} passes, {})", file.path().display(), bytes(size)));
+        say::say(&format!("saved {} ({}, {})", file.path().display(), passes(count), bytes(size)));
     }
 }
 
 /// How it ended, where that is not plain, and how good the picture is.
 fn say_end(session: &Session, outcome: Option<nephroid::Outcome>) {
     let done = session.done();
-    let of = session.total().map_or(String::new(), |total| format!(" of {total}"));
+    let done = session.total().map_or_else(|| passes(done), |total| format!("{done} of {}", passes(total)));
     let resume = || {
         let file = session.checkpoint_file().filter(|_| session.is_saved() == Some(true))?;
         Some(format!("; `nephroid resume {}` goes on", file.path().display()))
     };
     match outcome {
         Some(nephroid::Outcome::Stopped) => {
-            say::say(&format!("interrupted after {done}{of} passes{}", resume().unwrap_or_default()));
+            say::say(&format!("interrupted after {done}{}", resume().unwrap_or_default()));
         }
-        Some(nephroid::Outcome::TimeUp) => say::say(&format!("the time is up after {done}{of} passes")),
+        Some(nephroid::Outcome::TimeUp) => say::say(&format!("the time is up after {done}")),
         Some(nephroid::Outcome::Finished) | None => {}
     }
     if let Some(noise) = noise_line(session.film()) {
         say::say(&noise);
     }
+}
+
+/// So many passes, in words.
+pub fn passes(n: u64) -> String {
+    if n == 1 { "1 pass".to_owned() } else { format!("{n} passes") }
 }
 
 /// The noise of a film, in words.
@@ -167,11 +172,11 @@ pub fn write(
         match output.write(film, info) {
             Ok(()) if quiet => {}
             Ok(()) => say::say(&format!(
-                "wrote {} ({}x{}, {} passes)",
+                "wrote {} ({}x{}, {})",
                 output.path().display(),
                 film.width(),
                 film.height(),
-                film.passes()
+                passes(film.passes())
             )),
             Err(error) => {
                 say::error(&format!("{error}\n  = help: {}", error.help()));

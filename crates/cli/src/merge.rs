@@ -8,7 +8,7 @@ use nephroid::{
 
 use crate::args::MergeArgs;
 use crate::checkpoint;
-use crate::drive::{noise_line, write};
+use crate::drive::{noise_line, passes, write};
 use crate::failure::{FAILED, Failure, OK, Outcome};
 use crate::info::bytes;
 use crate::render::{checked, refusal};
@@ -52,7 +52,11 @@ pub fn run(args: &MergeArgs) -> Outcome {
             format!("; {} are not among them", said(&missing))
         };
         let what = if args.checkpoints.len() == 1 { "read" } else { "merged" };
-        say::say(&format!("{what} {} passes of {} file(s){note}", film.passes(), args.checkpoints.len()));
+        let files = match args.checkpoints.len() {
+            1 => "1 file".to_owned(),
+            n => format!("{n} files"),
+        };
+        say::say(&format!("{what} {} of {files}{note}", passes(film.passes())));
     }
     let mut code = OK;
     for file in &files {

@@ -6,5 +6,6 @@ mod interrupt;
 mod manual;
 mod outputs;
 mod reports;
+mod sessions;
 mod threads;
 mod wrong;
