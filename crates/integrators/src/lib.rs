@@ -1,6 +1,8 @@
 //! Light transport algorithms, one paper a file. An integrator turns (scene, settings, pass index) into one film
 //! contribution, a pure function; no clocks, locks, atomics or printing.
 
+mod auto;
+mod caustics;
 mod eye;
 mod irradiance;
 mod maps;
@@ -8,6 +10,7 @@ mod path;
 mod photon_map;
 mod photon_pass;
 mod pixels;
+mod plan;
 mod radius;
 mod settings;
 mod sink;
@@ -17,6 +20,7 @@ mod vcm;
 use film::{FilmError, PassFilm};
 use scene::Scene;
 
+pub use auto::Auto;
 pub use maps::{MapReport, Maps, TracedPhotons};
 pub use path::Path;
 pub use photon_map::PhotonMapper;
@@ -51,10 +55,12 @@ pub trait Integrator: Send + Sync {
     fn render(&self, scene: &Scene, maps: Option<&Maps>, pass: u64) -> Result<PassFilm, FilmError>;
 }
 
-/// The integrator that the settings name.
-pub fn integrator(settings: &Settings) -> Box<dyn Integrator> {
+/// The integrator that the settings name, for renders of `scene`. Cost: `auto` traces a pilot, some 10⁵ paths; the
+/// others cost nothing.
+pub fn integrator(settings: &Settings, scene: &Scene) -> Box<dyn Integrator> {
     match settings.kind {
-        IntegratorKind::Path | IntegratorKind::Auto => Box::new(Path::new(settings.clone())),
+        IntegratorKind::Auto => Box::new(Auto::new(settings.clone(), scene)),
+        IntegratorKind::Path => Box::new(Path::new(settings.clone())),
         IntegratorKind::Sppm => Box::new(Sppm::new(settings.clone())),
         IntegratorKind::Vcm => Box::new(Vcm::new(settings.clone())),
         IntegratorKind::PhotonMap => Box::new(PhotonMapper::new(settings.clone())),

@@ -8,6 +8,8 @@ use crate::vcm::{LightSide, LightTrace};
 pub struct TracedPhotons {
     pub(crate) global: Vec<Photon>,
     pub(crate) caustic: Vec<Photon>,
+    /// [`transport::LightChain::rivals`] of the caustic photons; empty where nothing weighs them.
+    pub(crate) rivals: Vec<f32>,
     /// What light paths of vertex connection and merging leave beside `global`.
     pub(crate) light_trace: LightTrace,
     /// Median radius of lookups, in scene units, where it is known before the map is; else 0.
@@ -25,6 +27,8 @@ pub struct TracedPhotons {
 pub struct Maps {
     pub(crate) global: Option<StoredMap>,
     pub(crate) caustic: Option<StoredMap>,
+    /// [`transport::LightChain::rivals`] of the caustic photons in the map's order; empty where nothing weighs them.
+    pub(crate) rivals: Vec<f32>,
     /// Irradiance at some of the global photons, for gather rays that end on Lambertian surfaces.
     pub(crate) irradiance: Option<PhotonMap>,
     /// Photons of one pass, for lookups within radii that pixels give.

@@ -4,16 +4,22 @@
 use bsdf::Lobes;
 use film::{FilmError, PassFilm};
 use scene::Scene;
-use transport::{Emission, PathClass, Walk, direct, emission_at, emission_escaped};
+use transport::{Emission, PathClass, Walk, direct_against, emission_at, emission_escaped};
 
 use crate::pixels::{CameraPath, Tracer, render_pixels};
 use crate::sink::{Origin, Sink, Technique};
 use crate::{Integrator, Maps, Settings, TracedPhotons};
 
-/// Scattering events before Russian roulette begins.
-const ROULETTE_DEPTH: u32 = 3;
-/// Greatest chance to survive it: a path in a white furnace ends, too.
-const MAX_SURVIVAL: f32 = 0.98;
+/// Throughput below which Russian roulette begins: killing earlier adds more noise than it saves time.
+const FAINT: f32 = 1.0 / 3.0;
+/// Vertices whose numbers fill their squares evenly over the passes.
+pub(crate) const EVEN_DEPTH: u32 = 2;
+
+/// Chance to survive an event.
+#[inline]
+pub(crate) fn survival(walk: &Walk<'_>) -> f32 {
+    walk.survival() / FAINT
+}
 
 /// The path tracer.
 #[derive(Clone, Debug)]
@@ -37,7 +43,7 @@ pub(crate) fn add_emission(sink: &mut impl Sink, walk: &Walk<'_>, class: PathCla
 
 impl Tracer for Path {
     #[inline]
-    fn trace<S: Sink>(&self, CameraPath { mut walk, mut sampler, .. }: CameraPath<'_>, sink: &mut S) {
+    fn trace<S: Sink>(&self, CameraPath { mut walk, mut sampler, strata, .. }: CameraPath<'_>, sink: &mut S) {
         let scene = walk.scene();
         let mut class = PathClass::default();
         loop {
@@ -58,15 +64,21 @@ impl Tracer for Path {
                 return;
             }
             let is_s = !vertex.bsdf.has_diffuse();
-            if let Some(direct) = direct(scene, &vertex, &mut sampler) {
+            let depth = walk.depth;
+            let even = |pair: u32, sampler: &mut sampling::Sampler| {
+                if depth < EVEN_DEPTH { strata.point(2 * depth + pair) } else { sampler.next_2d() }
+            };
+            let u_light = sampler.next_1d();
+            if let Some(direct) = direct_against(scene, &vertex, Lobes::ALL, u_light, even(0, &mut sampler)) {
                 let layer = class.scattered(is_s).layer();
                 let origin = Origin { layer, technique: Technique::Direct, light: Some(direct.light) };
                 sink.add(origin, walk.throughput * direct.radiance);
             }
-            let Some(scattered) = walk.scatter(&vertex, &mut sampler) else { return };
+            let u_lobe = sampler.next_1d();
+            let u = even(1, &mut sampler);
+            let Some(scattered) = walk.scatter_with(&vertex, Lobes::ALL, u_lobe, u) else { return };
             class = class.scattered(is_s || scattered.lobes.contains(Lobes::SPECULAR));
-            if walk.depth >= ROULETTE_DEPTH && !walk.roulette(walk.survival().min(MAX_SURVIVAL), &mut sampler)
-            {
+            if !walk.roulette(survival(&walk), &mut sampler) {
                 return;
             }
         }

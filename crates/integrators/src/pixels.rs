@@ -4,7 +4,7 @@ use bsdf::TransportMode;
 use color::Lanes;
 use film::{FilmError, PassFilm, PixelSample};
 use math::Vec2;
-use sampling::{Domain, Sampler, Streams, shifted_r2};
+use sampling::{Domain, Sampler, Strata, Streams, shifted_r2};
 use scene::Scene;
 use transport::Walk;
 
@@ -20,6 +20,8 @@ const COLUMNS: usize = 16;
 pub(crate) struct CameraPath<'s> {
     pub walk: Walk<'s>,
     pub sampler: Sampler,
+    /// Numbers that fill their squares evenly over the passes of the pixel.
+    pub strata: Strata,
     /// Of the whole sample in its pixel.
     pub weight: f32,
 }
@@ -64,8 +66,9 @@ pub(crate) fn trace_pixels(
     samples
 }
 
+/// The eye path of a pass through a pixel.
 #[inline]
-fn start<'s>(
+pub(crate) fn start<'s>(
     scene: &'s Scene,
     settings: &Settings,
     streams: &Streams,
@@ -80,5 +83,6 @@ fn start<'s>(
     let camera = scene.camera().sample_we(film_position, sampler.next_2d());
     let walk = Walk::new(scene, TransportMode::Radiance, camera.ray, Lanes::ONE, scene.camera_medium())
         .with_footprint(camera.width, camera.spread);
-    CameraPath { walk, sampler, weight: filter.weight * camera.weight }
+    let strata = Strata::new(settings.seed.rotate_left(32) ^ pixel, pass);
+    CameraPath { walk, sampler, strata, weight: filter.weight * camera.weight }
 }

@@ -47,6 +47,7 @@ pub use scenefile::{
 pub use session::{
     Checkpoint, CheckpointError, CheckpointErrorKind, CheckpointFile, CheckpointInfo, CompileError, Compiled,
     Control, Event, Extent, Job, MergeError, Outcome, Output, OutputKind, Overrides, Phase, PictureError,
-    PictureInfo, Remaining, Resumed, SceneHash, Session, SessionError, Timings, Warning, check_outputs, compile,
-    film_bytes, gaps, merge, overwritten_inputs, resume, said, scene_hash, settings, write_checkpoint,
+    PictureInfo, Remaining, Resumed, SceneHash, Session, SessionError, Timings, Warning, check_outputs,
+    compile, film_bytes, gaps, merge, overwritten_inputs, resume, said, scene_hash, settings,
+    write_checkpoint,
 };

@@ -7,9 +7,11 @@ mod discrete;
 mod philox;
 mod sampler;
 mod sequence;
+mod strata;
 pub mod warp;
 
 pub use discrete::Discrete;
 pub use philox::philox4x32_10;
 pub use sampler::{Domain, Sampler, Streams};
 pub use sequence::shifted_r2;
+pub use strata::Strata;

@@ -60,7 +60,7 @@ impl Session {
     /// # Errors
     /// Where the job has no pass, or more than a film holds, or there is no memory or thread.
     pub fn new(job: Job, threads: usize) -> Result<Self, SessionError> {
-        let integrator = integrators::integrator(&job.settings);
+        let integrator = integrators::integrator(&job.settings, &job.scene);
         Self::with_integrator(job.scene, integrator, job.passes, threads)
     }
 

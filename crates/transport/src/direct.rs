@@ -2,10 +2,10 @@ use bsdf::{Lobes, TransportMode};
 use color::Lanes;
 use math::Vec3;
 use sampling::Sampler;
-use scene::light::LightHit;
+use scene::light::{LiSample, LightHit};
 use scene::{LightId, Scene};
 
-use crate::{Scattered, Vertex, Walk};
+use crate::{EyeChain, Scattered, Vertex, Walk};
 
 /// Power heuristic with exponent 2 (Veach 1997, eq. 9.13) for a sample of density `own` against one other
 /// technique of density `other`.
@@ -45,6 +45,51 @@ pub fn direct_against(
     u_light: f32,
     u: [f32; 2],
 ) -> Option<Direct> {
+    direct_weighted(scene, vertex, u_light, u, |sampled| {
+        if sampled.li.is_delta {
+            return 1.0;
+        }
+        let rival = vertex.bsdf.pdf_w_lobes(vertex.wo, sampled.li.wi, rivals, TransportMode::Radiance);
+        power_heuristic(sampled.pmf * sampled.li.pdf_w, rival)
+    })
+}
+
+/// [`direct`] from given numbers at the S surface `vertex`, the end of a chain that merging competes for.
+pub fn direct_in_chain(
+    scene: &Scene,
+    vertex: &Vertex,
+    chain: &EyeChain,
+    u_light: f32,
+    u: [f32; 2],
+) -> Option<Direct> {
+    direct_weighted(scene, vertex, u_light, u, |sampled| {
+        let li = &sampled.li;
+        let merge = chain.merge_over_direct(scene, vertex, sampled.light, sampled.pmf, li);
+        let emission = if li.is_delta {
+            0.0
+        } else {
+            let rival = vertex.bsdf.pdf_w(vertex.wo, li.wi, TransportMode::Radiance);
+            f64::from(rival) / (f64::from(sampled.pmf) * f64::from(li.pdf_w))
+        };
+        (1.0 / (1.0 + merge + emission)) as f32
+    })
+}
+
+/// A light that was sampled.
+struct Sampled {
+    light: LightId,
+    pmf: f32,
+    li: LiSample,
+}
+
+#[inline]
+fn direct_weighted(
+    scene: &Scene,
+    vertex: &Vertex,
+    u_light: f32,
+    u: [f32; 2],
+    weight: impl FnOnce(&Sampled) -> f32,
+) -> Option<Direct> {
     if vertex.bsdf.is_delta_only() {
         return None;
     }
@@ -52,19 +97,15 @@ pub fn direct_against(
     if pmf == 0.0 {
         return None;
     }
-    let id = LightId(index as u32);
-    let li = scene.light(id).sample_li(vertex.hit.p, vertex.hit.ng, u_pick, u)?;
+    let light = LightId(index as u32);
+    let li = scene.light(light).sample_li(vertex.hit.p, vertex.hit.ng, u_pick, u)?;
     let f = vertex.bsdf.eval(vertex.wo, li.wi, TransportMode::Radiance);
     if f.is_zero() || li.radiance.is_zero() {
         return None;
     }
-    let cos = vertex.bsdf.ns().dot(li.wi).abs();
-    let density = pmf * li.pdf_w;
-    let weight = if li.is_delta {
-        1.0
-    } else {
-        power_heuristic(density, vertex.bsdf.pdf_w_lobes(vertex.wo, li.wi, rivals, TransportMode::Radiance))
-    };
+    let sampled = Sampled { light, pmf, li };
+    let weight = weight(&sampled);
+    let li = sampled.li;
     let ray = if li.distance.is_finite() {
         vertex.hit.spawn_ray_to(li.p, li.p_error, li.n)
     } else {
@@ -73,7 +114,8 @@ pub fn direct_against(
     if scene.occluded(&ray) {
         return None;
     }
-    Some(Direct { light: id, radiance: f * li.radiance * (cos * weight / density) })
+    let cos = vertex.bsdf.ns().dot(li.wi).abs();
+    Some(Direct { light, radiance: f * li.radiance * (cos * weight / (pmf * li.pdf_w)) })
 }
 
 /// A light that a walk met by following its own ray.
@@ -91,8 +133,11 @@ pub struct Emission {
 #[inline]
 pub fn emission_at(walk: &Walk<'_>, vertex: &Vertex) -> Option<Emission> {
     let light = vertex.hit.light?;
-    let hit = LightHit { p: vertex.hit.p, ng: vertex.hit.authored_ng(), prim: vertex.hit.prim };
-    emission_of(light, hit, walk.scene(), walk.last().copied(), vertex.wo)
+    emission_of(light, light_hit(vertex), walk.scene(), walk.last().copied(), vertex.wo)
+}
+
+fn light_hit(vertex: &Vertex) -> LightHit {
+    LightHit { p: vertex.hit.p, ng: vertex.hit.authored_ng(), prim: vertex.hit.prim }
 }
 
 #[inline(never)]
@@ -104,8 +149,8 @@ fn emission_of(
     wo: Vec3,
 ) -> Option<Emission> {
     let radiance = scene.light(light).emitted(hit.ng, wo);
-    let weight = weight_against_direct(scene, last, light, -wo, Some(hit));
-    (!radiance.is_zero()).then_some(Emission { light, radiance, weight })
+    let (own, other) = densities(scene, last, light, -wo, Some(hit));
+    (!radiance.is_zero()).then_some(Emission { light, radiance, weight: power_heuristic(own, other) })
 }
 
 /// The lights at infinity that a walk sees when it leaves the scene.
@@ -114,23 +159,56 @@ pub fn emission_escaped<'s>(walk: &Walk<'s>) -> impl Iterator<Item = Emission> +
     let (scene, last, direction) = (walk.scene(), walk.last().copied(), walk.ray.direction);
     scene.environments().iter().filter_map(move |&light| {
         let radiance = scene.light(light).escaped(direction);
-        (!radiance.is_zero()).then(|| Emission {
-            light,
-            radiance,
-            weight: weight_against_direct(scene, last, light, direction, None),
+        (!radiance.is_zero()).then(|| {
+            let (own, other) = densities(scene, last, light, direction, None);
+            Emission { light, radiance, weight: power_heuristic(own, other) }
         })
     })
 }
 
-fn weight_against_direct(
+/// [`emission_at`] where merging may compete.
+#[inline]
+pub fn emission_in_chain(walk: &Walk<'_>, vertex: &Vertex, chain: &EyeChain) -> Option<Emission> {
+    let light = vertex.hit.light?;
+    if !chain.competes() {
+        return emission_at(walk, vertex);
+    }
+    let hit = light_hit(vertex);
+    let radiance = walk.scene().light(light).emitted(hit.ng, vertex.wo);
+    (!radiance.is_zero()).then(|| {
+        let merge = chain.merge_over_emission(walk, light, Some(hit));
+        Emission { light, radiance, weight: against_both(walk, light, Some(hit), merge) }
+    })
+}
+
+/// [`emission_escaped`] where merging may compete.
+pub fn escaped_in_chain<'s>(walk: Walk<'s>, chain: EyeChain) -> impl Iterator<Item = Emission> + use<'s> {
+    emission_escaped(&walk).map(move |e| {
+        if !chain.competes() {
+            return e;
+        }
+        let merge = chain.merge_over_emission(&walk, e.light, None);
+        Emission { weight: against_both(&walk, e.light, None, merge), ..e }
+    })
+}
+
+/// Balance heuristic of emission against light sampling and merging, whose density over emission's is `merge`.
+fn against_both(walk: &Walk<'_>, light: LightId, hit: Option<LightHit>, merge: f64) -> f32 {
+    let (own, other) = densities(walk.scene(), walk.last().copied(), light, walk.ray.direction, hit);
+    let direct = if own.is_infinite() { 0.0 } else { f64::from(other) / f64::from(own) };
+    (1.0 / (1.0 + merge + direct)) as f32
+}
+
+/// Densities per steradian at the last vertex, of the walk and of light sampling; an infinite one and 0 where that
+/// could not have found the light.
+fn densities(
     scene: &Scene,
     last: Option<Scattered>,
     light: LightId,
     direction: Vec3,
     hit: Option<LightHit>,
-) -> f32 {
-    let Some(last) = last.filter(|last| last.lit) else { return 1.0 };
+) -> (f32, f32) {
+    let Some(last) = last.filter(|last| last.lit) else { return (f32::INFINITY, 0.0) };
     let pmf = scene.direct_picker().pmf(light.0 as usize);
-    let other = pmf * scene.light(light).pdf_li_w(last.p, direction, hit);
-    power_heuristic(last.pdf_w, other)
+    (last.pdf_w, pmf * scene.light(light).pdf_li_w(last.p, direction, hit))
 }

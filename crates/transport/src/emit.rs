@@ -2,10 +2,10 @@ use bsdf::TransportMode;
 use color::Lanes;
 use math::{Ray, offset_ray_origin};
 use sampling::Sampler;
-use scene::light::{LeSample, LightPicker};
+use scene::light::LeSample;
 use scene::{LightId, Scene};
 
-use crate::Walk;
+use crate::{LightStart, Walk};
 
 /// A photon that has just left a light.
 #[derive(Clone, Copy, Debug)]
@@ -23,16 +23,37 @@ pub struct EmittedPhoton<'s> {
 /// Φ = Le·cosθ / (p_light · p_area · p_direction) (Jensen 2001, §5.1).
 pub fn emit<'s>(scene: &'s Scene, sampler: &mut Sampler) -> Option<EmittedPhoton<'s>> {
     let (u_light, u_pos, u_dir) = (sampler.next_1d(), sampler.next_2d(), sampler.next_2d());
-    launch(scene, scene.global_picker(), u_light, |light, u_pick| light.sample_le(u_pick, u_pos, u_dir))
+    let (index, pmf, u_pick) = scene.global_picker().sample(u_light);
+    if pmf == 0.0 {
+        return None;
+    }
+    let id = LightId(index as u32);
+    let le = scene.light(id).sample_le(u_pick, u_pos, u_dir)?;
+    start(scene, id, &le, pmf * le.pdf_a * le.pdf_w)
 }
 
 /// A photon aimed at the scene's specular objects. Its flux is exact: the density is that of the aimed direction.
 /// `None`: it carries nothing or misses every object, and counts as emitted.
 pub fn emit_toward_targets<'s>(scene: &'s Scene, sampler: &mut Sampler) -> Option<EmittedPhoton<'s>> {
     let (u_light, u_pos, u_dir) = (sampler.next_1d(), sampler.next_2d(), sampler.next_2d());
-    launch(scene, scene.caustic_picker(), u_light, |light, u_pick| {
-        light.sample_le_toward(scene.targets(), u_pick, u_pos, u_dir)
-    })
+    emit_toward_targets_with(scene, u_light, u_pos, u_dir).map(|(emitted, _)| emitted)
+}
+
+/// [`emit_toward_targets`] from given numbers, and the start that weights are made of.
+pub fn emit_toward_targets_with<'s>(
+    scene: &'s Scene,
+    u_light: f32,
+    u_pos: [f32; 2],
+    u_dir: [f32; 2],
+) -> Option<(EmittedPhoton<'s>, LightStart)> {
+    let (index, pmf, u_pick) = scene.caustic_picker().sample(u_light);
+    if pmf == 0.0 {
+        return None;
+    }
+    let light = LightId(index as u32);
+    let le = scene.light(light).sample_le_toward(scene.targets(), u_pick, u_pos, u_dir)?;
+    let emitted = start(scene, light, &le, pmf * le.pdf_a * le.pdf_w)?;
+    Some((emitted, LightStart { light, pmf, le }))
 }
 
 /// A photon of a mixture: with probability `aimed` as by [`emit_toward_targets`], else as by [`emit`]. The flux is over
@@ -66,21 +87,6 @@ pub fn emit_mixed<'s>(scene: &'s Scene, aimed: f32, sampler: &mut Sampler) -> Op
     let density =
         if toward { aimed * own + (1.0 - aimed) * other } else { (1.0 - aimed) * own + aimed * other };
     start(scene, id, &le, density)
-}
-
-fn launch<'s>(
-    scene: &'s Scene,
-    picker: &LightPicker,
-    u_light: f32,
-    sample: impl FnOnce(&scene::Light, f32) -> Option<LeSample>,
-) -> Option<EmittedPhoton<'s>> {
-    let (index, pmf, u_pick) = picker.sample(u_light);
-    if pmf == 0.0 {
-        return None;
-    }
-    let id = LightId(index as u32);
-    let le = sample(scene.light(id), u_pick)?;
-    start(scene, id, &le, pmf * le.pdf_a * le.pdf_w)
 }
 
 fn start<'s>(scene: &'s Scene, id: LightId, le: &LeSample, density: f32) -> Option<EmittedPhoton<'s>> {

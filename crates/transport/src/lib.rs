@@ -1,6 +1,8 @@
 //! The verbs of light transport: [`Walk`], [`direct`], [`emit`] and [`merge`]. Integrators are thin loops over
 //! them. No threads, no files, no clocks.
 
+mod caustics;
+mod chain;
 mod connect;
 mod direct;
 mod emit;
@@ -14,9 +16,14 @@ mod project;
 mod subpath;
 mod walk;
 
+pub use caustics::{CausticBatch, CausticJob, trace_caustics};
+pub use chain::{EyeChain, LightChain, LightStart};
 pub use connect::{MergingWeights, connect, connect_light, emission_against_all, escape_against_all};
-pub use direct::{Direct, Emission, direct, direct_against, emission_at, emission_escaped, power_heuristic};
-pub use emit::{EmittedPhoton, emit, emit_mixed, emit_toward_targets};
+pub use direct::{
+    Direct, Emission, direct, direct_against, direct_in_chain, emission_at, emission_escaped,
+    emission_in_chain, escaped_in_chain, power_heuristic,
+};
+pub use emit::{EmittedPhoton, emit, emit_mixed, emit_toward_targets, emit_toward_targets_with};
 pub use light_densities::LightDensities;
 pub use light_path::{LightClass, LightVertex, trace_light_path};
 pub use merge::{Lookup, Merged, irradiance, merge, merge_within, nearest_irradiance};

@@ -135,7 +135,8 @@ fn trace_one(
         let is_d = vertex.bsdf.has_diffuse();
         if is_d && wanted(job.paths, diffuse_events, specular_events) {
             let caustic = wanted(PhotonPaths::Caustic, diffuse_events, specular_events);
-            batch.photons.push(photon(walk, &vertex, caustic));
+            let flags = if caustic { PhotonFlags::CAUSTIC } else { PhotonFlags::NONE };
+            batch.photons.push(photon(walk, &vertex, flags));
         }
         if walk.depth + 1 >= job.max_depth {
             batch.balance.cut += flux(walk);
@@ -180,16 +181,10 @@ fn wanted(paths: PhotonPaths, diffuse_events: u32, specular_events: u32) -> bool
     }
 }
 
-fn photon(walk: &Walk<'_>, vertex: &Vertex, caustic: bool) -> Photon {
+/// The photon that a walk from a light leaves at a vertex.
+pub(crate) fn photon(walk: &Walk<'_>, vertex: &Vertex, flags: PhotonFlags) -> Photon {
     let wi = vertex.wo;
     let normal = if wi.dot(vertex.hit.ng) < 0.0 { -vertex.hit.ng } else { vertex.hit.ng };
     let power: Lanes = walk.throughput;
-    Photon {
-        position: vertex.hit.p,
-        direction: wi,
-        normal,
-        power,
-        depth: walk.depth.min(255) as u8,
-        flags: if caustic { PhotonFlags::CAUSTIC } else { PhotonFlags::NONE },
-    }
+    Photon { position: vertex.hit.p, direction: wi, normal, power, depth: walk.depth.min(255) as u8, flags }
 }

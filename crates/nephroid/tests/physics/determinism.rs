@@ -23,7 +23,7 @@ fn exr(integrator: IntegratorKind, seed: u64, threads: usize, passes: std::ops::
 
 #[test]
 fn exr_bytes_do_not_depend_on_threads_and_replay() {
-    for integrator in [PATH, PHOTON_MAP, IntegratorKind::Sppm] {
+    for integrator in [PATH, PHOTON_MAP, IntegratorKind::Sppm, IntegratorKind::Auto] {
         let one = exr(integrator, 5, 1, 0..2);
         for threads in [2, 3, 7, 1] {
             assert!(one == exr(integrator, 5, threads, 0..2), "{integrator:?} on {threads} threads");

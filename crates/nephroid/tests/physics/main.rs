@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too")]
 
 mod agreement;
+mod auto;
 mod balance;
 mod caustics;
 mod closed_forms;
