@@ -3,6 +3,7 @@
 
 mod bench;
 mod gallery;
+mod long;
 mod reference;
 
 use std::path::{Path, PathBuf};
@@ -17,6 +18,7 @@ type Chore = (&'static str, &'static str, &'static str, fn(&[String]) -> Outcome
 const CHORES: &[Chore] = &[
     ("bench", "[--quick] [--only PREFIX] [--json FILE]", "measures against peers", bench::run),
     ("gallery", "[NAME...]", "renders docs/gallery/", gallery::run),
+    ("long", "[NAME...]", "runs the tests that take minutes", long::run),
     ("reference", "[--check]", "writes docs/reference.md", reference::run),
 ];
 

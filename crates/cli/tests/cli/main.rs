@@ -3,6 +3,8 @@
 
 mod harness;
 mod interrupt;
+#[cfg(all(unix, feature = "long"))]
+mod long;
 mod manual;
 mod outputs;
 mod reports;

@@ -164,6 +164,14 @@ fn what_cannot_be_merged_is_refused_by_name() {
     assert!(refused(&place, &["merge", "cut.neph", "-o", "m.exr"]).err.contains("cut off"));
 }
 
+/// What the checkpoint a.neph holds.
+#[cfg(unix)]
+pub fn passes_of(place: &Place) -> u64 {
+    let out = place.ok(&["info", "a.neph"]).out;
+    let line = out.lines().find(|l| l.starts_with("holds")).unwrap();
+    line.split_whitespace().nth(1).unwrap().parse().unwrap()
+}
+
 #[cfg(unix)]
 mod unix {
     use super::*;
@@ -218,13 +226,6 @@ mod unix {
         place.ok(&["resume", "a.neph", "--passes", "+2", "-q", "-o", "b.exr"]);
         place.ok(&with(&PATH, &["--passes", &total, "-q", "-o", "c.exr"]));
         assert!(place.read("b.exr") == place.read("c.exr"));
-    }
-
-    /// What the checkpoint holds.
-    pub fn passes_of(place: &Place) -> u64 {
-        let out = place.ok(&["info", "a.neph"]).out;
-        let line = out.lines().find(|l| l.starts_with("holds")).unwrap().to_owned();
-        line.split_whitespace().nth(1).unwrap().parse().unwrap()
     }
 
     #[test]
