@@ -1,5 +1,6 @@
-//! The verbs of light transport: [`Walk`], [`direct`], [`emit`] and [`merge`]. Integrators are thin loops over
-//! them. No threads, no files, no clocks.
+//! The verbs of light transport: [`Walk`], [`direct`], [`emit`] and [`merge`]; with the weights of vertex connection and
+//! merging [`Subpath`], [`connect`], [`connect_light`] and [`project`]. Integrators are thin loops over them. No threads, no
+//! files, no clocks.
 
 mod caustics;
 mod chain;
