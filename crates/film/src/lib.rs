@@ -37,4 +37,4 @@ pub use pass_film::{NonFinite, PassFilm, PixelSample};
 pub use png_file::{PngOptions, encode_png, encode_png_bytes, write_png};
 pub use read::{ReadError, ReadErrorKind, RgbImage};
 pub use section::{SectionError, SectionReader, SectionWriter};
-pub use unfinished::discard_unfinished;
+pub use unfinished::{discard_leftovers, discard_unfinished};

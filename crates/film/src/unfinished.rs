@@ -1,5 +1,6 @@
 //! Files under way: what a program that ends in the middle must not leave behind.
 
+use std::ffi::{OsStr, OsString};
 use std::fs::{self, File};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -35,6 +36,38 @@ pub fn discard_unfinished() {
     }
 }
 
+/// Removes what a process left of a file that it was writing when it was killed. Only for who knows that nobody else
+/// writes `path` now.
+pub fn discard_leftovers(path: &Path) {
+    let prefix = prefix(path);
+    let leftover = |name: &OsStr| {
+        let (name, prefix) = (name.as_encoded_bytes(), prefix.as_encoded_bytes());
+        // Between them stand six letters and digits.
+        name.len() == prefix.len() + 6 + SUFFIX.len()
+            && name.starts_with(prefix)
+            && name.ends_with(SUFFIX.as_bytes())
+    };
+    let Ok(entries) = fs::read_dir(folder_of(path)) else { return };
+    for entry in entries.flatten().filter(|entry| leftover(&entry.file_name())) {
+        // What cannot be removed does no harm.
+        fs::remove_file(entry.path()).ok();
+    }
+}
+
+const SUFFIX: &str = ".part";
+
+/// What the names of the temporary files for `path` begin with.
+fn prefix(path: &Path) -> OsString {
+    let mut prefix = OsString::from(".");
+    match path.file_name() {
+        // Longer ones would leave no room for the rest.
+        Some(name) if name.len() <= 200 => prefix.push(name),
+        _ => prefix.push("nephroid"),
+    }
+    prefix.push("-");
+    prefix
+}
+
 /// The name of a temporary file; the file is removed when this is dropped.
 #[derive(Debug)]
 pub(crate) struct Unfinished {
@@ -45,8 +78,9 @@ pub(crate) struct Unfinished {
 impl Unfinished {
     /// A new file in the folder of `path`, which it is to replace.
     pub(crate) fn new(path: &Path) -> Result<(Self, File), OutputError> {
+        let prefix = prefix(path);
         let mut builder = tempfile::Builder::new();
-        builder.prefix(".nephroid-").suffix(".part");
+        builder.prefix(&prefix).suffix(SUFFIX);
         #[cfg(unix)]
         {
             // As any new file: readable as the user's mask allows.

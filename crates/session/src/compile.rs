@@ -5,6 +5,8 @@ use par::Workers;
 use scene::Scene;
 use scenefile::{Diagnostic, SceneDesc};
 
+use crate::surroundings::camera_warning;
+
 /// A scene that can be rendered.
 #[derive(Clone, Debug)]
 pub struct Compiled {
@@ -46,7 +48,8 @@ impl std::error::Error for CompileError {}
 /// Where the description is wrong, with every reason, or threads cannot be started.
 pub fn compile(desc: &SceneDesc, threads: usize) -> Result<Compiled, CompileError> {
     let workers = Workers::new(threads).map_err(CompileError::Threads)?;
-    let (scene, warnings) = workers.run(|| scene::compile(desc)).map_err(CompileError::Scene)?;
+    let (scene, mut warnings) = workers.run(|| scene::compile(desc)).map_err(CompileError::Scene)?;
+    warnings.extend(camera_warning(&scene, desc));
     Ok(Compiled { scene: Arc::new(scene), warnings })
 }
 

@@ -22,6 +22,7 @@ mod resume;
 mod run;
 mod session;
 mod settings;
+mod surroundings;
 
 pub use checkpoint::{
     Checkpoint, CheckpointError, CheckpointErrorKind, CheckpointFile, CheckpointInfo, MergeError, merge,

@@ -38,6 +38,7 @@ fn a_render_that_is_killed_again_and_again_loses_nothing_that_was_saved() {
         let total = (done + 1).to_string();
         place.ok(&["resume", "a.neph", "--passes", &total, "-q"]);
         let resumed = place.read("a.exr");
+        assert_eq!(place.files(), ["a.exr", "a.neph", "box.toml"], "nothing else is left");
         place.ok(&[&begin[..], &["--passes", &total]].concat());
         assert!(place.read("a.exr") == resumed, "{integrator}");
     }

@@ -62,6 +62,7 @@ impl CheckpointFile {
                 Err(TryLockError::Error(e)) => return Err(io_error(e)),
             }
             if is_at(&locked, &lock) {
+                film::discard_leftovers(path);
                 return Ok(Self { path: path.to_owned(), lock, _locked: locked });
             }
         }
