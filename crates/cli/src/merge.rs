@@ -1,6 +1,6 @@
 //! `nephroid merge`.
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use nephroid::{
     Checkpoint, CheckpointFile, MergeError, PictureInfo, Timings, gaps, merge, overwritten_inputs, said,
@@ -84,7 +84,7 @@ pub fn run(args: &MergeArgs) -> Outcome {
     Ok(code)
 }
 
-fn is_checkpoint(path: &PathBuf) -> bool {
+fn is_checkpoint(path: &Path) -> bool {
     path.extension().is_some_and(|e| e.eq_ignore_ascii_case("neph"))
 }
 

@@ -46,8 +46,8 @@ mod tests {
     use scenefile::desc::{Camera, Light, LightKind, Material, Object, Shape};
 
     fn warnings(material: Material, radius: f32, more: impl FnOnce(&mut SceneDesc)) -> Vec<String> {
-        let mut desc = SceneDesc::default();
-        desc.camera = Some(Camera { position: [0.0, 0.0, 4.0], ..Camera::default() }.into());
+        let camera = Camera { position: [0.0, 0.0, 4.0], ..Camera::default() };
+        let mut desc = SceneDesc { camera: Some(camera.into()), ..SceneDesc::default() };
         desc.lights.push(Light::from(LightKind::Environment { radiance: [1.0; 3] }).into());
         desc.objects.push(Object::new(Shape::Sphere { center: [0.0; 3], radius }, material).into());
         more(&mut desc);
