@@ -167,6 +167,12 @@ impl Started {
         assert!(status.success());
     }
 
+    /// Sends a signal by name, long enough after the last to be another request.
+    pub fn signal_again(&self, name: &str) {
+        std::thread::sleep(std::time::Duration::from_millis(300));
+        self.signal(name);
+    }
+
     /// Waits for the end.
     pub fn end(mut self) -> Ran {
         self.err.read_to_string(&mut self.said).unwrap();

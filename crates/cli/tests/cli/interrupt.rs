@@ -33,6 +33,18 @@ fn so_does_termination() {
 }
 
 #[test]
+fn a_signal_that_comes_twice_is_one() {
+    let place = Place::new();
+    let mut started = place.start(&FOREVER);
+    started.wait_for(" map:");
+    started.signal("TERM");
+    started.signal("TERM");
+    let ran = started.end();
+    assert_eq!(ran.code, Some(130), "{}", ran.err);
+    assert_eq!(place.files(), ["a.png", "box.toml"]);
+}
+
+#[test]
 fn the_second_interrupt_ends_at_once() {
     let place = Place::new();
     let slow = ["--size", "512x512", "--set", "photon_map.final_gather=4096"];
@@ -41,7 +53,7 @@ fn the_second_interrupt_ends_at_once() {
     started.signal("INT");
     started.wait_for("interrupted:");
     let start = Instant::now();
-    started.signal("INT");
+    started.signal_again("INT");
     let ran = started.end();
     assert_eq!(ran.code, Some(130), "{}", ran.err);
     assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
