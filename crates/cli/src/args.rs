@@ -53,7 +53,7 @@ pub struct SceneArgs {
     /// The scene file (TOML).
     pub scene: PathBuf,
 
-    /// Algorithm [default: the scene's, or photon_map].
+    /// Algorithm [default: the scene's, or auto].
     #[arg(long, value_name = "NAME")]
     pub integrator: Option<Integrator>,
 
@@ -65,7 +65,7 @@ pub struct SceneArgs {
     #[arg(long, value_name = "PIXELS", conflicts_with = "size", value_parser = clap::value_parser!(u32).range(1..=65536))]
     pub width: Option<u32>,
 
-    /// Passes, each one camera sample a pixel [default: the scene's, or 16].
+    /// Passes, each one camera sample a pixel [default: the scene's, or 128].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4_194_304))]
     pub passes: Option<u32>,
 

@@ -12,7 +12,6 @@ fn the_default_output_is_named_after_the_scene() {
     assert_eq!(size(&place.path("box.png")), (16, 12));
     assert_eq!(ran.out, "");
     expect![[r#"
-        global map: _ stored photons, _ KiB, typical radius _
         caustic map: _ stored photons, _ KiB, typical radius _
         pass 1/2 (50 %), _ s elapsed, _ s left
         pass 2/2 (100 %), _ s elapsed

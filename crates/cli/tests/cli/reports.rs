@@ -15,8 +15,7 @@ fn info_says_what_is_in_a_scene() {
     expect![[r#"
         scene       box.toml
         picture     16x12, blackman-harris filter, exposure 0 EV, view agx
-        integrator  photon_map, 2 passes, seed 0, depth 4
-        photon map  2000 photons, 20 neighbours; caustics 2000 photons, 20 neighbours; final gather 2
+        integrator  auto, 2 passes, seed 0, depth 4
         objects     4, 2 triangles
         materials   4, 0 textures
         bounds     

@@ -65,11 +65,11 @@ impl SceneDesc {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum IntegratorKind {
     /// Path tracing, light sampling and merging with photons where that pays.
+    #[default]
     Auto,
     /// Unidirectional path tracing with light sampling.
     Path,
     /// Two-pass photon mapping.
-    #[default]
     PhotonMap,
     /// Stochastic progressive photon mapping.
     Sppm,
@@ -105,7 +105,7 @@ pub struct Render {
 
 impl Default for Render {
     fn default() -> Self {
-        Self { integrator: IntegratorKind::PhotonMap, passes: 16, seed: 0, max_depth: None }
+        Self { integrator: IntegratorKind::Auto, passes: 128, seed: 0, max_depth: None }
     }
 }
 
@@ -345,7 +345,7 @@ impl Default for Vcm {
             techniques: VcmTechniques::Vcm,
             light_paths: None,
             radius: None,
-            radius_pixels: 4.0,
+            radius_pixels: 2.0,
             alpha: 2.0 / 3.0,
         }
     }

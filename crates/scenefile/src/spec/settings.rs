@@ -22,12 +22,12 @@ pub const RENDER: Section = Section {
     doc: "What to compute.",
     switch: None,
     keys: &[
-        key("integrator", Kind::Word(INTEGRATORS), "", Preset::Word("photon_map"), "The algorithm."),
+        key("integrator", Kind::Word(INTEGRATORS), "", Preset::Word("auto"), "The algorithm."),
         key(
             "passes",
             Integer(1, 1_000_000_000),
             "",
-            Preset::Integer(16),
+            Preset::Integer(128),
             "Passes, each one camera sample a pixel.",
         ),
         key("seed", Integer(0, u64::MAX as i128), "", Preset::Integer(0), "Seed of every random number."),
@@ -238,13 +238,16 @@ const RADIUS: Key = key(
     Absent("as radius_pixels says"),
     "Radius of the first pass; later ones are smaller.",
 );
-const RADIUS_PIXELS: Key = key(
-    "radius_pixels",
-    Number(POSITIVE),
-    "pixels",
-    Preset::Number(4.0),
-    "Radius of the first pass in widths of a pixel at the surface, through mirrors and glass.",
-);
+/// Radius of the first pass in pixels, with its preset.
+const fn radius_pixels(preset: f64) -> Key {
+    key(
+        "radius_pixels",
+        Number(POSITIVE),
+        "pixels",
+        Preset::Number(preset),
+        "Radius of the first pass in widths of a pixel at the surface, through mirrors and glass.",
+    )
+}
 const ALPHA: Key = key(
     "alpha",
     Number(LEAST_ALPHA),
@@ -272,7 +275,7 @@ pub const SPPM: Section = Section {
             "Photons emitted each pass.",
         ),
         RADIUS,
-        RADIUS_PIXELS,
+        radius_pixels(4.0),
         ALPHA,
         key(
             "direct",
@@ -310,7 +313,7 @@ pub const VCM: Section = Section {
             "Light paths each pass.",
         ),
         RADIUS,
-        RADIUS_PIXELS,
+        radius_pixels(2.0),
         ALPHA,
     ],
     example: "[vcm]\ntechniques = \"bdpt\"\n",
