@@ -186,6 +186,11 @@ impl Session {
         outcome.map_err(Into::into)
     }
 
+    /// Worker threads.
+    pub fn threads(&self) -> usize {
+        self.workers.threads()
+    }
+
     /// Passes that are in the film.
     pub fn done(&self) -> u64 {
         self.film.passes()
@@ -216,7 +221,7 @@ impl Session {
         self.film
     }
 
-    /// What the phases of all runs took.
+    /// Time spent on photons, maps and eye passes, in all runs of this session.
     pub fn timings(&self) -> &Timings {
         &self.timings
     }
