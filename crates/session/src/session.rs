@@ -60,7 +60,9 @@ impl Session {
     /// # Errors
     /// Where the job has no pass, or more than a film holds, or there is no memory or thread.
     pub fn new(job: Job, threads: usize) -> Result<Self, SessionError> {
-        let integrator = integrators::integrator(&job.settings, &job.scene);
+        // What an integrator finds out about the scene at first, it finds on this many threads.
+        let workers = Workers::new(threads).map_err(SessionError::Threads)?;
+        let integrator = workers.run(|| integrators::integrator(&job.settings, &job.scene));
         Self::with_integrator(job.scene, integrator, job.passes, threads)
     }
 
