@@ -26,6 +26,8 @@ const CHUNK: usize = 256;
 const LEAST_SHARE: f64 = 1.0 / 16.0;
 /// Photons a pixel for each unit of that share; by trials (docs/book/auto.md).
 const FULL_AT: f64 = 3.0;
+/// Most of them: with more, large pictures would only take longer for each pass and more memory.
+const MOST: f64 = (1 << 20) as f64;
 
 /// Photon paths of a pass.
 #[derive(Clone, Copy, Debug)]
@@ -36,8 +38,8 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    /// As many paths as pixels where a third of the picture's light is merged, fewer where less is, and none where no photon
-    /// lands.
+    /// As many paths as pixels where a third of the picture's light is merged, fewer where less is, and none where no
+    /// photon lands.
     pub fn new(settings: &Settings, scene: &Scene) -> Self {
         let none = Self { paths: 0, typical_radius: 0.0 };
         if scene.targets().is_empty() || settings.max_depth < 2 {
@@ -63,10 +65,14 @@ impl Plan {
         };
         let seen = look(settings, scene, &maps);
         let [width, height] = scene.resolution().map(f64::from);
-        let share = if seen.all > 0.0 { (seen.merged / seen.all).min(1.0) } else { 0.0 };
-        let paths = (width * height * (FULL_AT * share).clamp(LEAST_SHARE, 1.0)).ceil() as u64;
-        Self { paths, typical_radius: seen.median_radius() }
+        let share = if seen.all > 0.0 { seen.merged / seen.all } else { 0.0 };
+        Self { paths: paths(width * height, share), typical_radius: seen.median_radius() }
     }
+}
+
+/// Photon paths for a picture of so many pixels, of whose light that share is merged.
+fn paths(pixels: f64, share: f64) -> u64 {
+    (pixels * (FULL_AT * share).clamp(LEAST_SHARE, 1.0)).ceil().min(MOST) as u64
 }
 
 /// What the pilot's eye paths found.
@@ -144,5 +150,20 @@ impl Sink for Tally {
         if self.first.is_none() && vertex.bsdf.has_diffuse() {
             self.first = Some(self.radius.at(vertex.footprint));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn photons_follow_the_share_of_merged_light() {
+        let picture = 256.0 * 256.0;
+        assert_eq!(paths(picture, 0.0), 4096, "a few where the pilot saw none");
+        assert_eq!(paths(picture, 1.0 / 12.0), 16_384);
+        assert_eq!(paths(picture, 0.4), 65_536, "no more than pixels");
+        assert_eq!(paths(7680.0 * 4320.0, 1.0), 1 << 20, "a large picture");
+        assert_eq!(paths(1.0, 0.0), 1);
     }
 }
