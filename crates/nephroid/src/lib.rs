@@ -4,7 +4,12 @@
 //! code. [`compile`] makes a [`Scene`] of it, a [`Session`] renders a [`Job`] pass by pass into a [`Film`], and an
 //! [`Output`] writes that as EXR or PNG.
 //!
-//! The film depends on description and seed alone: any number of threads gives the same bytes.
+//! What happens in a session is told as [`Event`]s, whose observer may stop it; it goes on where it stopped. A session may
+//! have a time limit and a checkpoint file; [`resume`] makes a session of such a file, and [`merge`] adds up several that
+//! hold different passes.
+//!
+//! The film depends on description and seed alone: any number of threads, and any split into sessions, gives the same
+//! bytes.
 //!
 //! ```
 //! use nephroid::desc::{Camera, Emission, Material, Object, Shape};
@@ -13,8 +18,7 @@
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let mut desc = SceneDesc::default();
 //! desc.film.size = [8, 8];
-//! desc.render.passes = 2;
-//! desc.photon_map.photons = 1000;
+//! desc.render.passes = 16;
 //! desc.camera = Some(Camera { position: [0.0, 0.0, 4.0], ..Camera::default() }.into());
 //! // Inside a sphere that emits 1 W/(sr·m²) and reflects half of what arrives: radiance 1/(1 − 1/2) everywhere.
 //! let shape = Shape::Sphere { center: [0.0; 3], radius: 5.0 };
