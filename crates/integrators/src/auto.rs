@@ -4,24 +4,24 @@
 //! paths by BSDF and light sampling. Nothing need be set: what photons are worth is found by a pilot ([`Plan`]).
 
 use bsdf::{Lobes, TransportMode};
-use color::Lanes;
 use film::{FilmError, PassFilm};
 use photons::{Kernel, PhotonMap};
 use sampling::{Domain, Sampler};
 use scene::Scene;
 use transport::{
-    CausticJob, EyeChain, LightLayer, PathClass, Vertex, Walk, direct_against, direct_in_chain,
+    CausticJob, EyeChain, LightLayer, PathClass, PathEnd, Vertex, Walk, direct_against, direct_in_chain,
     emission_in_chain, escaped_in_chain, merge_within,
 };
 
-use crate::caustics::{Caustics, trace_caustic_job};
+use crate::caustics::{Caustics, replay_caustic_job, trace_caustic_job};
 use crate::maps::StoredMap;
 use crate::path::{EVEN_DEPTH, add_emission, survival};
 use crate::pixels::{CameraPath, Tracer, render_pixels};
 use crate::plan::Plan;
 use crate::radius::PassRadius;
-use crate::sink::{Origin, Sink, Technique};
-use crate::{Integrator, Maps, RadiusSettings, Settings, StartRadius, TracedPhotons};
+use crate::replay::record_pixel;
+use crate::sink::{Origin, Sink, Source, Sum, Technique};
+use crate::{Integrator, Maps, PathRecord, PhotonKind, RadiusSettings, Settings, StartRadius, TracedPhotons};
 
 /// Radii. No setting: weights hand to other techniques what a radius does not suit.
 pub(crate) const RADIUS: RadiusSettings =
@@ -47,6 +47,22 @@ impl Auto {
     pub fn photon_paths(&self) -> u64 {
         self.plan.paths
     }
+
+    fn job(&self, map_index: u64) -> CausticJob {
+        CausticJob {
+            count: self.plan.paths,
+            seed: self.settings.seed,
+            map_index,
+            domain: Domain::CausticPhoton,
+            max_depth: self.settings.max_depth,
+        }
+    }
+
+    fn eye<'a>(&self, scene: &Scene, maps: Option<&'a Maps>, pass: u64) -> Eye<'a> {
+        let radius = RADIUS.of_pass(pass, scene.bounds().size().length());
+        let photons = maps.and_then(|maps| Merging::new(maps, radius, self.plan.paths));
+        Eye { photons, max_depth: self.settings.max_depth }
+    }
 }
 
 impl Integrator for Auto {
@@ -59,14 +75,7 @@ impl Integrator for Auto {
     }
 
     fn trace_photons(&self, scene: &Scene, map_index: u64) -> TracedPhotons {
-        let job = CausticJob {
-            count: self.plan.paths,
-            seed: self.settings.seed,
-            map_index,
-            domain: Domain::CausticPhoton,
-            max_depth: self.settings.max_depth,
-        };
-        let Caustics { photons, rivals, nonfinite } = trace_caustic_job(scene, &job);
+        let Caustics { photons, rivals, nonfinite } = trace_caustic_job(scene, &self.job(map_index));
         TracedPhotons { caustic: photons, rivals, nonfinite, ..TracedPhotons::default() }
     }
 
@@ -79,10 +88,23 @@ impl Integrator for Auto {
     }
 
     fn render(&self, scene: &Scene, maps: Option<&Maps>, pass: u64) -> Result<PassFilm, FilmError> {
-        let radius = RADIUS.of_pass(pass, scene.bounds().size().length());
-        let photons = maps.and_then(|maps| Merging::new(maps, radius, self.plan.paths));
-        let eye = Eye { photons, max_depth: self.settings.max_depth };
-        render_pixels(scene, &self.settings, pass, &eye)
+        render_pixels(scene, &self.settings, pass, &self.eye(scene, maps, pass))
+    }
+
+    fn replay_pixel(&self, scene: &Scene, maps: Option<&Maps>, pass: u64, pixel: [usize; 2]) -> PathRecord {
+        record_pixel(scene, &self.settings, pass, pixel, &self.eye(scene, maps, pass)).finish()
+    }
+
+    fn photon_paths(&self, _scene: &Scene) -> Vec<(PhotonKind, u64)> {
+        let paths = (PhotonKind::Caustic, self.plan.paths);
+        if paths.1 > 0 { vec![paths] } else { Vec::new() }
+    }
+
+    fn replay_photon(&self, scene: &Scene, map_index: u64, kind: PhotonKind, path: u64) -> PathRecord {
+        match kind {
+            PhotonKind::Caustic => replay_caustic_job(scene, &self.job(map_index), path),
+            PhotonKind::Global => PathRecord::default(),
+        }
     }
 }
 
@@ -121,7 +143,7 @@ impl Tracer for Eye<'_> {
                 for e in escaped_in_chain(walk, chain) {
                     add_emission(sink, &walk, class, &e);
                 }
-                return;
+                return sink.ended(PathEnd::Escaped);
             };
             sink.reached(&walk, &vertex);
             if walk.depth == 0 {
@@ -131,7 +153,7 @@ impl Tracer for Eye<'_> {
                 add_emission(sink, &walk, class, &e);
             }
             if walk.depth >= self.max_depth {
-                return;
+                return sink.ended(PathEnd::Depth);
             }
             let is_d = vertex.bsdf.has_diffuse();
             let depth = walk.depth;
@@ -146,7 +168,8 @@ impl Tracer for Eye<'_> {
             };
             if let Some(direct) = direct {
                 let layer = class.scattered(!is_d).layer();
-                let origin = Origin { layer, technique: Technique::Direct, light: Some(direct.light) };
+                let origin =
+                    Origin { layer, technique: Technique::Direct, source: Source::Light(direct.light) };
                 sink.add(origin, walk.throughput * direct.radiance);
             }
             if let (true, Some(photons)) = (is_d, &self.photons) {
@@ -156,7 +179,9 @@ impl Tracer for Eye<'_> {
                 photons.merge(&walk, &vertex, class, radius, self.max_depth, sink);
             }
             let (u_lobe, u) = (sampler.next_1d(), even(1, &mut sampler));
-            let Some(scattered) = walk.scatter_with(&vertex, Lobes::ALL, u_lobe, u) else { return };
+            let Some(scattered) = walk.scatter_with(&vertex, Lobes::ALL, u_lobe, u) else {
+                return sink.ended(PathEnd::Absorbed);
+            };
             let specular = !is_d || scattered.lobes.contains(Lobes::SPECULAR);
             class = class.scattered(specular);
             match &self.photons {
@@ -167,7 +192,7 @@ impl Tracer for Eye<'_> {
                 None => {}
             }
             if !walk.roulette(survival(&walk), &mut sampler) {
-                return;
+                return sink.ended(PathEnd::Roulette);
             }
         }
     }
@@ -182,32 +207,32 @@ impl Merging<'_> {
 
     /// Caustic light at a D surface.
     #[inline]
-    fn merge(
+    fn merge<S: Sink>(
         &self,
         walk: &Walk<'_>,
         vertex: &Vertex,
         class: PathClass,
         radius: f32,
         max_depth: u32,
-        sink: &mut impl Sink,
+        sink: &mut S,
     ) {
         let per_acceptance = (1.0 / self.acceptance(radius)) as f32;
         // The events before, and the one here, count on the whole path.
         let most = max_depth - walk.depth - 1;
-        let mut sum = Lanes::ZERO;
+        let mut sum = S::Sum::default();
         let count = merge_within(self.map, vertex, radius, KERNEL, |photon, radiance| {
             if u32::from(photon.depth()) > most {
                 return;
             }
             let pdf_w = vertex.bsdf.pdf_w(vertex.wo, photon.direction(), TransportMode::Radiance);
             let rivals = self.rivals[photon.slot as usize] * pdf_w * per_acceptance;
-            sum += radiance * (1.0 / (1.0 + rivals));
+            sum.add(Source::of(photon), radiance * (1.0 / (1.0 + rivals)));
         });
         if count == 0 {
             return;
         }
         let layer = class.scattered(false).scattered(true).layer();
-        sink.add(Origin { layer, technique: Technique::Merge, light: None }, walk.throughput * sum);
+        sink.add_sum(layer, Technique::Merge, sum.map(|sum| walk.throughput * sum));
         if layer == LightLayer::Caustic {
             sink.density(count as f32 / (std::f32::consts::PI * radius * radius));
         }

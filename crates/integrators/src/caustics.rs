@@ -2,7 +2,10 @@
 
 use photons::Photon;
 use scene::Scene;
-use transport::{CausticJob, trace_caustics};
+use transport::{CausticJob, observe_caustic, trace_caustics};
+
+use crate::replay::PhotonRecording;
+use crate::{NonFinitePhoton, PathRecord, PhotonKind};
 
 /// Photon paths of one task; fixed, so that sums have one shape on any number of threads.
 const CHUNK: usize = 1024;
@@ -12,7 +15,7 @@ const CHUNK: usize = 1024;
 pub(crate) struct Caustics {
     pub photons: Vec<Photon>,
     pub rivals: Vec<f32>,
-    pub nonfinite: Vec<(u64, u32)>,
+    pub nonfinite: Vec<NonFinitePhoton>,
 }
 
 /// A whole job.
@@ -26,7 +29,16 @@ pub(crate) fn trace_caustic_job(scene: &Scene, job: &CausticJob) -> Caustics {
     for batch in batches {
         out.photons.extend_from_slice(&batch.photons);
         out.rivals.extend_from_slice(&batch.rivals);
-        out.nonfinite.extend(batch.nonfinite);
+        let nonfinite = batch.nonfinite.iter();
+        let kind = PhotonKind::Caustic;
+        out.nonfinite.extend(nonfinite.map(|&(path, depth)| NonFinitePhoton { kind, path, depth }));
     }
     out
+}
+
+/// One path of a job again.
+pub(crate) fn replay_caustic_job(scene: &Scene, job: &CausticJob, path: u64) -> PathRecord {
+    let mut recording = PhotonRecording::default();
+    observe_caustic(scene, job, path, &mut recording);
+    recording.finish()
 }

@@ -9,19 +9,19 @@
 use bsdf::{BsdfKind, Lobes, TransportMode};
 use color::Lanes;
 use math::{FRAC_1_PI, ONE_MINUS_EPSILON};
-use photons::Scratch;
+use photons::{PhotonMap, Scratch};
 use sampling::Sampler;
 use scene::Scene;
 use transport::{
-    LightLayer, Lookup, PathClass, Vertex, Walk, direct, direct_against, emission_at, emission_escaped,
-    merge, nearest_irradiance,
+    LightLayer, Lookup, PathClass, PathEnd, Vertex, Walk, direct, direct_against, emission_at,
+    emission_escaped, merge, merge_each, nearest_irradiance,
 };
 
 use crate::maps::StoredMap;
 use crate::path::add_emission;
 use crate::photon_map::global_lookup;
 use crate::pixels::{CameraPath, Tracer};
-use crate::sink::{Origin, Sink, Technique};
+use crate::sink::{Origin, Sink, Source, Sum, Technique};
 use crate::{Maps, PhotonMapSettings};
 
 /// Delta vertices of an eye path at which reflection and refraction are both followed; afterwards one is drawn.
@@ -53,15 +53,35 @@ fn shifted_hammersley(i: u32, n: u32, shift: [f32; 2]) -> [f32; 2] {
     [(i as f32 / n as f32 + shift[0]).fract(), (radical_inverse + shift[1]).fract()]
 }
 
-fn add(sink: &mut impl Sink, layer: LightLayer, technique: Technique, radiance: Lanes) {
-    sink.add(Origin { layer, technique, light: None }, radiance);
+/// Light gathered at a D surface, times the throughput there, and who watches.
+struct Gathered<'s, S: Sink> {
+    sink: &'s mut S,
+    direct: S::Sum,
+    indirect: S::Sum,
 }
 
-/// Light gathered at a D surface, times the throughput there.
-#[derive(Default)]
-struct Gathered {
-    direct: Lanes,
-    indirect: Lanes,
+impl<'s, S: Sink> Gathered<'s, S> {
+    fn new(sink: &'s mut S) -> Self {
+        Self { sink, direct: S::Sum::default(), indirect: S::Sum::default() }
+    }
+}
+
+/// Adds to a sum what a map's photons reflect at a vertex, times `throughput`; their number per unit of area.
+fn add_merged(
+    sum: &mut impl Sum,
+    map: &PhotonMap,
+    vertex: &Vertex,
+    lookup: &Lookup,
+    throughput: Lanes,
+    scratch: &mut Scratch,
+) -> f32 {
+    let found = merge(map, vertex, lookup, scratch);
+    sum.add_split(throughput * found.radiance, |part| {
+        merge_each(map, vertex, lookup, scratch, |photon, radiance| {
+            part(Source::of(photon), throughput * radiance);
+        });
+    });
+    found.density()
 }
 
 impl Tracer for Eye<'_> {
@@ -90,7 +110,7 @@ impl Eye<'_> {
                 for e in emission_escaped(&walk) {
                     add_emission(sink, &walk, PathClass::default(), &e);
                 }
-                return;
+                return sink.ended(PathEnd::Escaped);
             };
             sink.reached(&walk, &vertex);
             if walk.depth == 0 {
@@ -100,19 +120,21 @@ impl Eye<'_> {
                 add_emission(sink, &walk, PathClass::default(), &e);
             }
             if walk.depth >= self.max_depth {
-                return;
+                return sink.ended(PathEnd::Depth);
             }
             let mut lobes = Lobes::ALL;
             if vertex.bsdf.has_diffuse() {
                 self.shade(&walk, &vertex, sampler, scratch, sink);
                 if !vertex.bsdf.lobes().contains(Lobes::SPECULAR) {
-                    return;
+                    return sink.ended(PathEnd::Complete);
                 }
                 lobes = Lobes::DELTA;
             } else if !vertex.bsdf.is_delta_only()
                 && let Some(direct) = direct(self.scene, &vertex, sampler)
             {
-                add(sink, LightLayer::Direct, Technique::Direct, walk.throughput * direct.radiance);
+                let (layer, technique) = (LightLayer::Direct, Technique::Direct);
+                let origin = Origin { layer, technique, source: Source::Light(direct.light) };
+                sink.add(origin, walk.throughput * direct.radiance);
             }
             let delta = vertex.bsdf.delta_lobes(vertex.wo, TransportMode::Radiance);
             match delta {
@@ -128,45 +150,48 @@ impl Eye<'_> {
                 [Some(only), None] => walk.follow_delta(&vertex, &only),
                 _ => {
                     if walk.scatter_lobes(&vertex, lobes, sampler).is_none() {
-                        return;
+                        return sink.ended(PathEnd::Absorbed);
                     }
                 }
             }
             if !walk.roulette(walk.survival() / FAINT, sampler) {
-                return;
+                return sink.ended(PathEnd::Roulette);
             }
         }
     }
 
     /// All light reflected at the first D surface, its delta lobes apart.
-    fn shade(
+    fn shade<S: Sink>(
         &self,
         walk: &Walk<'_>,
         vertex: &Vertex,
         sampler: &mut Sampler,
         scratch: &mut Scratch,
-        sink: &mut impl Sink,
+        sink: &mut S,
     ) {
         let beta = walk.throughput;
-        add(sink, LightLayer::Direct, Technique::Direct, beta * self.direct(vertex, sampler));
+        let direct: S::Sum = self.direct(vertex, sampler);
+        sink.add_sum(LightLayer::Direct, Technique::Direct, direct.map(|light| beta * light));
         let caustic = self.caustic(vertex, scratch, sink);
-        add(sink, LightLayer::Caustic, Technique::Merge, beta * caustic * self.settings.caustic_gain);
-        let mut gathered = Gathered::default();
+        let gain = self.settings.caustic_gain;
+        sink.add_sum(LightLayer::Caustic, Technique::Merge, caustic.map(|light| beta * light * gain));
+        let mut gathered = Gathered::new(&mut *sink);
         self.gather(walk, vertex, self.settings.final_gather.max(1), 0, sampler, scratch, &mut gathered);
         if let (0, Some(global)) = (self.settings.final_gather, &self.maps.global) {
-            let found = merge(&global.map, vertex, &global_lookup(self.settings, global), scratch);
-            gathered.indirect += beta * found.radiance;
-            sink.density(found.density());
+            let lookup = global_lookup(self.settings, global);
+            let density = add_merged(&mut gathered.indirect, &global.map, vertex, &lookup, beta, scratch);
+            gathered.sink.density(density);
         }
-        add(sink, LightLayer::Direct, Technique::Emission, gathered.direct);
-        add(sink, LightLayer::Indirect, Technique::Merge, gathered.indirect);
+        let Gathered { direct, indirect, .. } = gathered;
+        sink.add_sum(LightLayer::Direct, Technique::Emission, direct);
+        sink.add_sum(LightLayer::Indirect, Technique::Merge, indirect);
     }
 
     /// Light straight from the lights by light sampling: a shadow ray for every few gather rays.
-    fn direct(&self, vertex: &Vertex, sampler: &mut Sampler) -> Lanes {
+    fn direct<T: Sum>(&self, vertex: &Vertex, sampler: &mut Sampler) -> T {
         let n = (self.settings.final_gather / GATHER_PER_SHADOW).max(1);
         let shift = sampler.next_2d();
-        let mut sum = Lanes::ZERO;
+        let mut sum = T::default();
         for i in 0..n {
             // Each light gets its share of the rays.
             let u_light = (i as f32 + sampler.next_1d()) / n as f32;
@@ -174,17 +199,19 @@ impl Eye<'_> {
             if let Some(direct) =
                 direct_against(self.scene, vertex, Lobes::NON_DELTA, u_light, shifted_hammersley(i, n, shift))
             {
-                sum += direct.radiance;
+                sum.add(Source::Light(direct.light), direct.radiance);
             }
         }
-        sum / n as f32
+        sum.map(|light| light / n as f32)
     }
 
-    fn caustic(&self, vertex: &Vertex, scratch: &mut Scratch, sink: &mut impl Sink) -> Lanes {
-        let Some(stored) = &self.maps.caustic else { return Lanes::ZERO };
-        let found = merge(&stored.map, vertex, &self.caustic_lookup(stored, vertex), scratch);
-        sink.density(found.density());
-        found.radiance
+    fn caustic<S: Sink>(&self, vertex: &Vertex, scratch: &mut Scratch, sink: &mut S) -> S::Sum {
+        let mut sum = S::Sum::default();
+        if let Some(stored) = &self.maps.caustic {
+            let lookup = self.caustic_lookup(stored, vertex);
+            sink.density(add_merged(&mut sum, &stored.map, vertex, &lookup, Lanes::ONE, scratch));
+        }
+        sum
     }
 
     fn caustic_lookup(&self, stored: &StoredMap, vertex: &Vertex) -> Lookup {
@@ -198,7 +225,7 @@ impl Eye<'_> {
 
     /// `n` rays from a D surface: lights that they meet at once, with their weight against light sampling, and light
     /// from D surfaces at their ends. `level` counts gathers before this one.
-    fn gather(
+    fn gather<S: Sink>(
         &self,
         walk: &Walk<'_>,
         vertex: &Vertex,
@@ -206,7 +233,7 @@ impl Eye<'_> {
         level: u32,
         sampler: &mut Sampler,
         scratch: &mut Scratch,
-        out: &mut Gathered,
+        out: &mut Gathered<'_, S>,
     ) {
         let shift = sampler.next_2d();
         for i in 0..n {
@@ -220,14 +247,14 @@ impl Eye<'_> {
         }
     }
 
-    fn follow_gather_ray(
+    fn follow_gather_ray<S: Sink>(
         &self,
         mut ray: Walk<'_>,
         from: &Vertex,
         level: u32,
         sampler: &mut Sampler,
         scratch: &mut Scratch,
-        out: &mut Gathered,
+        out: &mut Gathered<'_, S>,
     ) {
         let start = ray.throughput.max();
         let mut straight = true;
@@ -235,13 +262,14 @@ impl Eye<'_> {
             let Some(y) = ray.next_vertex() else {
                 if straight {
                     for e in emission_escaped(&ray) {
-                        out.direct += ray.throughput * e.radiance * e.weight;
+                        out.direct.add(Source::Light(e.light), ray.throughput * e.radiance * e.weight);
                     }
                 }
                 return;
             };
+            out.sink.reached(&ray, &y);
             if straight && let Some(e) = emission_at(&ray, &y) {
-                out.direct += ray.throughput * e.radiance * e.weight;
+                out.direct.add(Source::Light(e.light), ray.throughput * e.radiance * e.weight);
             }
             if self.settings.final_gather == 0 || ray.depth >= self.max_depth {
                 return;
@@ -264,7 +292,7 @@ impl Eye<'_> {
     }
 
     /// Light that the D surface at the end of a gather ray reflects along it.
-    fn light_at_end(
+    fn light_at_end<S: Sink>(
         &self,
         ray: &Walk<'_>,
         y: &Vertex,
@@ -272,22 +300,23 @@ impl Eye<'_> {
         level: u32,
         sampler: &mut Sampler,
         scratch: &mut Scratch,
-        out: &mut Gathered,
+        out: &mut Gathered<'_, S>,
     ) {
         let Some(global) = &self.maps.global else { return };
         let near = from.is_some_and(|x| (x.hit.p - y.hit.p).length() < NEAR * global.typical_radius);
         if near && level == 0 {
-            let mut second = Gathered::default();
+            let mut second = Gathered::new(&mut *out.sink);
             let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
             if let Some(direct) = direct_against(self.scene, y, Lobes::NON_DELTA, u_light, u) {
-                second.direct += ray.throughput * direct.radiance;
+                second.direct.add(Source::Light(direct.light), ray.throughput * direct.radiance);
             }
             if let Some(caustic) = &self.maps.caustic {
-                let found = merge(&caustic.map, y, &self.caustic_lookup(caustic, y), scratch);
-                second.indirect += ray.throughput * found.radiance;
+                let lookup = self.caustic_lookup(caustic, y);
+                add_merged(&mut second.indirect, &caustic.map, y, &lookup, ray.throughput, scratch);
             }
             self.gather(ray, y, 1, level + 1, sampler, scratch, &mut second);
-            out.indirect += second.direct + second.indirect;
+            let Gathered { direct, indirect, .. } = second;
+            out.indirect = std::mem::take(&mut out.indirect).plus(direct.plus(indirect));
             return;
         }
         let lookup = global_lookup(self.settings, global);
@@ -296,9 +325,9 @@ impl Eye<'_> {
             && let Some(samples) = &self.maps.irradiance
             && let Some(e) = nearest_irradiance(samples, y, global.typical_radius, scratch)
         {
-            out.indirect += ray.throughput * albedo * e * FRAC_1_PI;
+            out.indirect.add(Source::Unknown, ray.throughput * albedo * e * FRAC_1_PI);
             return;
         }
-        out.indirect += ray.throughput * merge(&global.map, y, &lookup, scratch).radiance;
+        add_merged(&mut out.indirect, &global.map, y, &lookup, ray.throughput, scratch);
     }
 }

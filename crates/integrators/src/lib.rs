@@ -12,6 +12,7 @@ mod photon_pass;
 mod pixels;
 mod plan;
 mod radius;
+mod replay;
 mod settings;
 mod sink;
 mod sppm;
@@ -26,11 +27,13 @@ pub use path::Path;
 pub use photon_map::PhotonMapper;
 pub use photons::Kernel;
 pub use radius::{RadiusSettings, StartRadius};
+pub use replay::{NonFinitePhoton, PathEvent, PathRecord, PhotonKind, VertexRecord};
 pub use settings::{
     DirectLight, IntegratorKind, PhotonMapSettings, Settings, SppmSettings, VcmSettings, VcmTechniques,
 };
 pub use sink::Technique;
 pub use sppm::Sppm;
+pub use transport::PathEnd;
 pub use vcm::Vcm;
 
 /// What sessions run. Object-safe: sessions meet it once a pass.
@@ -53,6 +56,16 @@ pub trait Integrator: Send + Sync {
     /// # Errors
     /// As [`PassFilm::new`]: where the film is too large to be addressed.
     fn render(&self, scene: &Scene, maps: Option<&Maps>, pass: u64) -> Result<PassFilm, FilmError>;
+
+    /// Traces the eye path of a pass through a pixel again. `maps`: as for [`render`](Self::render); `pixel`: column and
+    /// row, within the scene's resolution.
+    fn replay_pixel(&self, scene: &Scene, maps: Option<&Maps>, pass: u64, pixel: [usize; 2]) -> PathRecord;
+
+    /// The photons that are traced for each map index, and how many paths; those of none are left out.
+    fn photon_paths(&self, scene: &Scene) -> Vec<(PhotonKind, u64)>;
+
+    /// Traces a photon path again, one of [`photon_paths`](Self::photon_paths); others give an empty record.
+    fn replay_photon(&self, scene: &Scene, map_index: u64, kind: PhotonKind, path: u64) -> PathRecord;
 }
 
 /// The integrator that the settings name, for renders of `scene`. Cost: `auto` traces a pilot, some 10⁵ paths; the

@@ -1,6 +1,7 @@
 use photons::{Photon, PhotonMap};
 use transport::PhotonBalance;
 
+use crate::NonFinitePhoton;
 use crate::vcm::{LightSide, LightTrace};
 
 /// Photons before their maps are built.
@@ -18,8 +19,8 @@ pub struct TracedPhotons {
     pub global_balance: PhotonBalance,
     /// Energy balance of the caustic photons, in W.
     pub caustic_balance: PhotonBalance,
-    /// Photons that became non-finite and were dropped: index of the path and scattering events before.
-    pub nonfinite: Vec<(u64, u32)>,
+    /// Photons that became non-finite and were dropped.
+    pub nonfinite: Vec<NonFinitePhoton>,
 }
 
 /// What the eye pass looks up.

@@ -4,11 +4,12 @@
 use bsdf::Lobes;
 use film::{FilmError, PassFilm};
 use scene::Scene;
-use transport::{Emission, PathClass, Walk, direct_against, emission_at, emission_escaped};
+use transport::{Emission, PathClass, PathEnd, Walk, direct_against, emission_at, emission_escaped};
 
 use crate::pixels::{CameraPath, Tracer, render_pixels};
-use crate::sink::{Origin, Sink, Technique};
-use crate::{Integrator, Maps, Settings, TracedPhotons};
+use crate::replay::record_pixel;
+use crate::sink::{Origin, Sink, Source, Technique};
+use crate::{Integrator, Maps, PathRecord, PhotonKind, Settings, TracedPhotons};
 
 /// Throughput below which Russian roulette begins: killing earlier adds more noise than it saves time.
 const FAINT: f32 = 1.0 / 3.0;
@@ -37,7 +38,8 @@ impl Path {
 /// Light that the walk met.
 #[inline]
 pub(crate) fn add_emission(sink: &mut impl Sink, walk: &Walk<'_>, class: PathClass, e: &Emission) {
-    let origin = Origin { layer: class.layer(), technique: Technique::Emission, light: Some(e.light) };
+    let origin =
+        Origin { layer: class.layer(), technique: Technique::Emission, source: Source::Light(e.light) };
     sink.add(origin, walk.throughput * e.radiance * e.weight);
 }
 
@@ -51,7 +53,7 @@ impl Tracer for Path {
                 for e in emission_escaped(&walk) {
                     add_emission(sink, &walk, class, &e);
                 }
-                return;
+                return sink.ended(PathEnd::Escaped);
             };
             sink.reached(&walk, &vertex);
             if walk.depth == 0 {
@@ -61,7 +63,7 @@ impl Tracer for Path {
                 add_emission(sink, &walk, class, &e);
             }
             if walk.depth >= self.settings.max_depth {
-                return;
+                return sink.ended(PathEnd::Depth);
             }
             let is_s = !vertex.bsdf.has_diffuse();
             let depth = walk.depth;
@@ -71,15 +73,18 @@ impl Tracer for Path {
             let u_light = sampler.next_1d();
             if let Some(direct) = direct_against(scene, &vertex, Lobes::ALL, u_light, even(0, &mut sampler)) {
                 let layer = class.scattered(is_s).layer();
-                let origin = Origin { layer, technique: Technique::Direct, light: Some(direct.light) };
+                let origin =
+                    Origin { layer, technique: Technique::Direct, source: Source::Light(direct.light) };
                 sink.add(origin, walk.throughput * direct.radiance);
             }
             let u_lobe = sampler.next_1d();
             let u = even(1, &mut sampler);
-            let Some(scattered) = walk.scatter_with(&vertex, Lobes::ALL, u_lobe, u) else { return };
+            let Some(scattered) = walk.scatter_with(&vertex, Lobes::ALL, u_lobe, u) else {
+                return sink.ended(PathEnd::Absorbed);
+            };
             class = class.scattered(is_s || scattered.lobes.contains(Lobes::SPECULAR));
             if !walk.roulette(survival(&walk), &mut sampler) {
-                return;
+                return sink.ended(PathEnd::Roulette);
             }
         }
     }
@@ -104,5 +109,17 @@ impl Integrator for Path {
 
     fn render(&self, scene: &Scene, _maps: Option<&Maps>, pass: u64) -> Result<PassFilm, FilmError> {
         render_pixels(scene, &self.settings, pass, self)
+    }
+
+    fn replay_pixel(&self, scene: &Scene, _maps: Option<&Maps>, pass: u64, pixel: [usize; 2]) -> PathRecord {
+        record_pixel(scene, &self.settings, pass, pixel, self).finish()
+    }
+
+    fn photon_paths(&self, _scene: &Scene) -> Vec<(PhotonKind, u64)> {
+        Vec::new()
+    }
+
+    fn replay_photon(&self, _scene: &Scene, _map_index: u64, _kind: PhotonKind, _path: u64) -> PathRecord {
+        PathRecord::default()
     }
 }

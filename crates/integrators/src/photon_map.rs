@@ -8,9 +8,10 @@ use transport::{Lookup, PhotonJob, PhotonPaths};
 use crate::eye::Eye;
 use crate::irradiance::irradiance_samples;
 use crate::maps::StoredMap;
-use crate::photon_pass::{Traced, trace_job};
+use crate::photon_pass::{Traced, replay_job, trace_job};
 use crate::pixels::render_pixels;
-use crate::{Integrator, Maps, PhotonMapSettings, Settings, TracedPhotons};
+use crate::replay::record_pixel;
+use crate::{Integrator, Maps, PathRecord, PhotonKind, PhotonMapSettings, Settings, TracedPhotons};
 
 /// Greatest radius of lookups in the global map, in typical radii, unless it is set.
 const GLOBAL_RADII: f32 = 4.0;
@@ -29,9 +30,29 @@ impl PhotonMapper {
         Self { settings }
     }
 
-    fn trace(&self, scene: &Scene, paths: PhotonPaths, count: u64, max_depth: u32, map_index: u64) -> Traced {
-        let job = PhotonJob { paths, count, seed: self.settings.seed, map_index, max_depth };
-        trace_job(scene, &job)
+    /// The photons of a map; `None` where it is not needed.
+    fn job(&self, scene: &Scene, kind: PhotonKind, map_index: u64) -> Option<PhotonJob> {
+        let s = &self.settings.photon_map;
+        let limit = self.settings.max_depth;
+        let (paths, count, max_depth) = match (kind, s.final_gather) {
+            _ if limit < 2 => return None,
+            (PhotonKind::Caustic, _) if scene.targets().is_empty() => return None,
+            (PhotonKind::Caustic, _) => (PhotonPaths::Caustic, s.caustic_photons, limit),
+            (PhotonKind::Global, 0) => (PhotonPaths::Indirect, s.photons, limit),
+            // A photon that gather rays see is scattered twice more: where it lies, and where it is gathered.
+            (PhotonKind::Global, _) => {
+                (PhotonPaths::Global, s.photons, if limit == u32::MAX { limit } else { limit - 1 })
+            }
+        };
+        Some(PhotonJob { paths, count, seed: self.settings.seed, map_index, max_depth })
+    }
+
+    fn trace(&self, scene: &Scene, kind: PhotonKind, map_index: u64) -> Traced {
+        self.job(scene, kind, map_index).map_or_else(Traced::default, |job| trace_job(scene, &job))
+    }
+
+    fn eye<'a>(&'a self, scene: &'a Scene, maps: &'a Maps) -> Eye<'a> {
+        Eye { scene, settings: &self.settings.photon_map, max_depth: self.settings.max_depth, maps }
     }
 }
 
@@ -45,22 +66,8 @@ impl Integrator for PhotonMapper {
     }
 
     fn trace_photons(&self, scene: &Scene, map_index: u64) -> TracedPhotons {
-        let s = &self.settings.photon_map;
-        let limit = self.settings.max_depth;
-        // A photon that gather rays see is scattered twice more: where it lies, and where it is gathered.
-        let (paths, global_depth) = match s.final_gather {
-            0 => (PhotonPaths::Indirect, limit),
-            _ => (PhotonPaths::Global, limit.saturating_sub(if limit == u32::MAX { 0 } else { 1 })),
-        };
-        let global = match limit {
-            0 | 1 => Traced::default(),
-            _ => self.trace(scene, paths, s.photons, global_depth, map_index),
-        };
-        let caustic = if limit < 2 || scene.targets().is_empty() {
-            Traced::default()
-        } else {
-            self.trace(scene, PhotonPaths::Caustic, s.caustic_photons, limit, map_index)
-        };
+        let global = self.trace(scene, PhotonKind::Global, map_index);
+        let caustic = self.trace(scene, PhotonKind::Caustic, map_index);
         let mut nonfinite = global.nonfinite;
         nonfinite.extend(caustic.nonfinite);
         TracedPhotons {
@@ -88,13 +95,23 @@ impl Integrator for PhotonMapper {
 
     fn render(&self, scene: &Scene, maps: Option<&Maps>, pass: u64) -> Result<PassFilm, FilmError> {
         let none = Maps::default();
-        let eye = Eye {
-            scene,
-            settings: &self.settings.photon_map,
-            max_depth: self.settings.max_depth,
-            maps: maps.unwrap_or(&none),
-        };
-        render_pixels(scene, &self.settings, pass, &eye)
+        render_pixels(scene, &self.settings, pass, &self.eye(scene, maps.unwrap_or(&none)))
+    }
+
+    fn replay_pixel(&self, scene: &Scene, maps: Option<&Maps>, pass: u64, pixel: [usize; 2]) -> PathRecord {
+        let none = Maps::default();
+        let eye = self.eye(scene, maps.unwrap_or(&none));
+        record_pixel(scene, &self.settings, pass, pixel, &eye).finish()
+    }
+
+    fn photon_paths(&self, scene: &Scene) -> Vec<(PhotonKind, u64)> {
+        let count = |kind| self.job(scene, kind, 0).map(|job| (kind, job.count)).filter(|(_, n)| *n > 0);
+        PhotonKind::ALL.into_iter().filter_map(count).collect()
+    }
+
+    fn replay_photon(&self, scene: &Scene, map_index: u64, kind: PhotonKind, path: u64) -> PathRecord {
+        let job = self.job(scene, kind, map_index);
+        job.map_or_else(PathRecord::default, |job| replay_job(scene, &job, path))
     }
 }
 

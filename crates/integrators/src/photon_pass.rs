@@ -2,7 +2,10 @@
 
 use photons::Photon;
 use scene::Scene;
-use transport::{PhotonBalance, PhotonJob, trace_photons};
+use transport::{PhotonBalance, PhotonJob, PhotonPaths, observe_photon, trace_photons};
+
+use crate::replay::PhotonRecording;
+use crate::{NonFinitePhoton, PathRecord, PhotonKind};
 
 /// Photon paths of one task; fixed, so that sums have one shape on any number of threads.
 const CHUNK: usize = 4096;
@@ -12,7 +15,7 @@ const CHUNK: usize = 4096;
 pub(crate) struct Traced {
     pub photons: Vec<Photon>,
     pub balance: PhotonBalance,
-    pub nonfinite: Vec<(u64, u32)>,
+    pub nonfinite: Vec<NonFinitePhoton>,
 }
 
 /// A whole job, in index order.
@@ -25,7 +28,19 @@ pub(crate) fn trace_job(scene: &Scene, job: &PhotonJob) -> Traced {
     for batch in batches {
         out.photons.extend_from_slice(&batch.photons);
         out.balance = out.balance.plus(&batch.balance);
-        out.nonfinite.extend(batch.nonfinite);
+        let kind = match job.paths {
+            PhotonPaths::Caustic => PhotonKind::Caustic,
+            _ => PhotonKind::Global,
+        };
+        let nonfinite = batch.nonfinite.iter();
+        out.nonfinite.extend(nonfinite.map(|&(path, depth)| NonFinitePhoton { kind, path, depth }));
     }
     out
+}
+
+/// One path of a job again.
+pub(crate) fn replay_job(scene: &Scene, job: &PhotonJob, path: u64) -> PathRecord {
+    let mut recording = PhotonRecording::default();
+    observe_photon(scene, job, path, &mut recording);
+    recording.finish()
 }

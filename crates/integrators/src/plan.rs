@@ -5,14 +5,14 @@ use color::Lanes;
 use photons::PhotonMap;
 use sampling::{Domain, Strata, Streams};
 use scene::Scene;
-use transport::{CausticJob, Vertex, Walk};
+use transport::{CausticJob, LightLayer, Vertex, Walk};
 
 use crate::auto::{Eye, Merging, RADIUS};
 use crate::caustics::trace_caustic_job;
 use crate::maps::StoredMap;
 use crate::pixels::{Tracer, start};
 use crate::radius::PassRadius;
-use crate::sink::{Origin, Sink, Technique};
+use crate::sink::{Origin, Sink, Source, Technique};
 use crate::{Maps, Settings};
 
 /// Photon paths of the pilot.
@@ -131,6 +131,8 @@ struct Tally {
 }
 
 impl Sink for Tally {
+    type Sum = Lanes;
+
     fn add(&mut self, origin: Origin, radiance: Lanes) {
         let luminance = f64::from(color::luminance(radiance.to_rgb()));
         if !luminance.is_finite() {
@@ -140,6 +142,10 @@ impl Sink for Tally {
         if origin.technique == Technique::Merge {
             self.merged += luminance;
         }
+    }
+
+    fn add_sum(&mut self, layer: LightLayer, technique: Technique, sum: Lanes) {
+        self.add(Origin { layer, technique, source: Source::Unknown }, sum);
     }
 
     fn features(&mut self, _vertex: &Vertex) {}

@@ -1,7 +1,8 @@
 use color::Lanes;
 use film::PixelSample;
+use photons::{PhotonFlags, PhotonView};
 use scene::LightId;
-use transport::{LightLayer, Vertex, Walk};
+use transport::{LightLayer, PathEnd, Vertex, Walk};
 
 /// How a path was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -34,19 +35,123 @@ impl Technique {
     }
 }
 
+/// Where light came from, as far as it is known.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Source {
+    Light(LightId),
+    /// A group of lights.
+    Group(u8),
+    /// Several lights, or one that was not kept.
+    Unknown,
+}
+
+impl Source {
+    #[inline]
+    pub fn of_flags(flags: PhotonFlags) -> Self {
+        flags.group().map_or(Self::Unknown, Self::Group)
+    }
+
+    #[inline]
+    pub fn of(photon: &PhotonView<'_>) -> Self {
+        Self::of_flags(photon.flags())
+    }
+}
+
 /// What is known of some light that reached the film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Origin {
     pub layer: LightLayer,
     pub technique: Technique,
-    /// Which light, where one alone is meant.
-    pub light: Option<LightId>,
+    pub source: Source,
 }
 
-/// Takes what an integrator finds along one eye path.
+/// Adds up radiance before it goes to a sink. The total is the same number whatever else is kept.
+pub(crate) trait Sum: Default {
+    fn add(&mut self, source: Source, radiance: Lanes);
+
+    /// Adds `total`, whose parts `each` tells where they matter. They agree with the total but for rounding.
+    fn add_split(&mut self, total: Lanes, each: impl FnOnce(&mut dyn FnMut(Source, Lanes)));
+
+    fn plus(self, other: Self) -> Self;
+
+    /// `f` is linear.
+    fn map(self, f: impl Fn(Lanes) -> Lanes) -> Self;
+}
+
+impl Sum for Lanes {
+    #[inline]
+    fn add(&mut self, _source: Source, radiance: Lanes) {
+        *self += radiance;
+    }
+
+    #[inline]
+    fn add_split(&mut self, total: Lanes, _each: impl FnOnce(&mut dyn FnMut(Source, Lanes))) {
+        *self += total;
+    }
+
+    #[inline]
+    fn plus(self, other: Self) -> Self {
+        self + other
+    }
+
+    #[inline]
+    fn map(self, f: impl Fn(Lanes) -> Lanes) -> Self {
+        f(self)
+    }
+}
+
+/// A sum that remembers where its parts came from.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Parts {
+    pub total: Lanes,
+    pub parts: Vec<(Source, Lanes)>,
+}
+
+impl Parts {
+    fn add_part(&mut self, source: Source, radiance: Lanes) {
+        match self.parts.iter_mut().find(|(s, _)| *s == source) {
+            Some((_, sum)) => *sum += radiance,
+            None => self.parts.push((source, radiance)),
+        }
+    }
+}
+
+impl Sum for Parts {
+    fn add(&mut self, source: Source, radiance: Lanes) {
+        self.total += radiance;
+        self.add_part(source, radiance);
+    }
+
+    fn add_split(&mut self, total: Lanes, each: impl FnOnce(&mut dyn FnMut(Source, Lanes))) {
+        self.total += total;
+        each(&mut |source, radiance| self.add_part(source, radiance));
+    }
+
+    fn plus(mut self, other: Self) -> Self {
+        self.total += other.total;
+        for (source, radiance) in other.parts {
+            self.add_part(source, radiance);
+        }
+        self
+    }
+
+    fn map(mut self, f: impl Fn(Lanes) -> Lanes) -> Self {
+        self.total = f(self.total);
+        self.parts.iter_mut().for_each(|(_, part)| *part = f(*part));
+        self
+    }
+}
+
+/// Takes what an integrator finds along one eye path. The hooks are for replays; films have no use for them.
 pub(crate) trait Sink {
+    /// For light of several sources.
+    type Sum: Sum;
+
     /// Radiance at the camera, times its weight against other techniques.
     fn add(&mut self, origin: Origin, radiance: Lanes);
+
+    /// The same of several sources.
+    fn add_sum(&mut self, layer: LightLayer, technique: Technique, sum: Self::Sum);
 
     /// The first surface.
     fn features(&mut self, vertex: &Vertex);
@@ -54,15 +159,25 @@ pub(crate) trait Sink {
     /// Photons per unit area that an estimate found.
     fn density(&mut self, photons_per_area: f32);
 
-    /// The walk has reached a vertex. For replays; films have no use for it.
+    /// A walk has reached a vertex.
     #[inline]
     fn reached(&mut self, _walk: &Walk<'_>, _vertex: &Vertex) {}
+
+    /// The eye path is joined to a light path from here on.
+    #[inline]
+    fn joined(&mut self, _light_path: u64) {}
+
+    /// The walk is over.
+    #[inline]
+    fn ended(&mut self, _end: PathEnd) {}
 }
 
 /// Greatest photon density that a film is given: in small scenes the square of a length is smaller yet.
 const DENSEST: f32 = 8e9;
 
 impl Sink for PixelSample {
+    type Sum = Lanes;
+
     #[inline]
     fn add(&mut self, origin: Origin, radiance: Lanes) {
         let target = match origin.layer {
@@ -73,6 +188,11 @@ impl Sink for PixelSample {
         for (t, r) in target.iter_mut().zip(radiance.to_rgb()) {
             *t += r;
         }
+    }
+
+    #[inline]
+    fn add_sum(&mut self, layer: LightLayer, technique: Technique, sum: Lanes) {
+        self.add(Origin { layer, technique, source: Source::Unknown }, sum);
     }
 
     #[inline]

@@ -16,17 +16,18 @@ use photons::{Kernel, PhotonFlags, PhotonMap};
 use sampling::Sampler;
 use scene::Scene;
 use transport::{
-    LightLayer, PathClass, PhotonJob, PhotonPaths, Vertex, Walk, direct, direct_against, emission_at,
-    emission_escaped, merge_within,
+    LightLayer, PathClass, PathEnd, PhotonJob, PhotonPaths, Vertex, Walk, direct, direct_against,
+    emission_at, emission_escaped, merge_within,
 };
 
 use crate::maps::StoredMap;
 use crate::path::add_emission;
-use crate::photon_pass::trace_job;
+use crate::photon_pass::{replay_job, trace_job};
 use crate::pixels::{CameraPath, Tracer, render_pixels};
 use crate::radius::PassRadius;
-use crate::sink::{Origin, Sink, Technique};
-use crate::{DirectLight, Integrator, Maps, Settings, TracedPhotons};
+use crate::replay::record_pixel;
+use crate::sink::{Origin, Sink, Source, Sum, Technique};
+use crate::{DirectLight, Integrator, Maps, PathRecord, PhotonKind, Settings, TracedPhotons};
 
 /// For equal bias this kernel needs a radius of √1.5 of the constant one's, and has 8/9 of its variance then: of all
 /// kernels the least (Epanechnikov 1969).
@@ -52,6 +53,36 @@ impl Sppm {
     fn radius(&self, scene: &Scene, pass: u64) -> PassRadius {
         self.settings.sppm.radius.of_pass(pass, scene.bounds().size().length())
     }
+
+    /// The photons of a pass; `None` where paths may be no longer than what is found without them.
+    fn job(&self, scene: &Scene, map_index: u64) -> Option<PhotonJob> {
+        let [width, height] = scene.resolution().map(u64::from);
+        let (paths, least_depth) = match self.settings.sppm.direct {
+            DirectLight::Sampling => (PhotonPaths::MixedScattered, 2),
+            DirectLight::Photons => (PhotonPaths::Mixed, 1),
+        };
+        (self.settings.max_depth >= least_depth).then(|| PhotonJob {
+            paths,
+            count: self.settings.sppm.photons.unwrap_or(width * height),
+            seed: self.settings.seed,
+            map_index,
+            max_depth: self.settings.max_depth,
+        })
+    }
+
+    fn eye<'a>(&self, scene: &Scene, maps: Option<&'a Maps>, pass: u64) -> Eye<'a> {
+        Eye {
+            map: maps.and_then(|maps| maps.merging.as_ref()).map(|stored| &stored.map),
+            radius: self.radius(scene, pass),
+            max_depth: self.settings.max_depth,
+            direct: self.settings.sppm.direct,
+            rays: if scene.lights().iter().all(|light| light.is_delta()) {
+                Lobes::NONE
+            } else {
+                Lobes::NON_DELTA
+            },
+        }
+    }
 }
 
 impl Integrator for Sppm {
@@ -64,24 +95,8 @@ impl Integrator for Sppm {
     }
 
     fn trace_photons(&self, scene: &Scene, map_index: u64) -> TracedPhotons {
-        let [width, height] = scene.resolution().map(u64::from);
-        let (paths, least_depth) = match self.settings.sppm.direct {
-            DirectLight::Sampling => (PhotonPaths::MixedScattered, 2),
-            DirectLight::Photons => (PhotonPaths::Mixed, 1),
-        };
-        if self.settings.max_depth < least_depth {
-            return TracedPhotons::default();
-        }
-        let traced = trace_job(
-            scene,
-            &PhotonJob {
-                paths,
-                count: self.settings.sppm.photons.unwrap_or(width * height),
-                seed: self.settings.seed,
-                map_index,
-                max_depth: self.settings.max_depth,
-            },
-        );
+        let Some(job) = self.job(scene, map_index) else { return TracedPhotons::default() };
+        let traced = trace_job(scene, &job);
         TracedPhotons {
             global: traced.photons,
             typical_radius: typical_radius(scene, &self.radius(scene, map_index)),
@@ -98,18 +113,22 @@ impl Integrator for Sppm {
     }
 
     fn render(&self, scene: &Scene, maps: Option<&Maps>, pass: u64) -> Result<PassFilm, FilmError> {
-        let eye = Eye {
-            map: maps.and_then(|maps| maps.merging.as_ref()).map(|stored| &stored.map),
-            radius: self.radius(scene, pass),
-            max_depth: self.settings.max_depth,
-            direct: self.settings.sppm.direct,
-            rays: if scene.lights().iter().all(|light| light.is_delta()) {
-                Lobes::NONE
-            } else {
-                Lobes::NON_DELTA
-            },
-        };
-        render_pixels(scene, &self.settings, pass, &eye)
+        render_pixels(scene, &self.settings, pass, &self.eye(scene, maps, pass))
+    }
+
+    fn replay_pixel(&self, scene: &Scene, maps: Option<&Maps>, pass: u64, pixel: [usize; 2]) -> PathRecord {
+        record_pixel(scene, &self.settings, pass, pixel, &self.eye(scene, maps, pass)).finish()
+    }
+
+    fn photon_paths(&self, scene: &Scene) -> Vec<(PhotonKind, u64)> {
+        self.job(scene, 0).map(|job| (PhotonKind::Global, job.count)).into_iter().collect()
+    }
+
+    fn replay_photon(&self, scene: &Scene, map_index: u64, kind: PhotonKind, path: u64) -> PathRecord {
+        match (kind, self.job(scene, map_index)) {
+            (PhotonKind::Global, Some(job)) => replay_job(scene, &job, path),
+            _ => PathRecord::default(),
+        }
     }
 }
 
@@ -128,7 +147,8 @@ impl Tracer for Eye<'_> {
     fn trace<S: Sink>(&self, CameraPath { mut walk, mut sampler, .. }: CameraPath<'_>, sink: &mut S) {
         loop {
             let Some(vertex) = walk.next_vertex() else {
-                return escape(&walk, sink);
+                escape(&walk, sink);
+                return sink.ended(PathEnd::Escaped);
             };
             sink.reached(&walk, &vertex);
             if walk.depth == 0 {
@@ -138,7 +158,7 @@ impl Tracer for Eye<'_> {
                 add_emission(sink, &walk, PathClass::default(), &e);
             }
             if walk.depth >= self.max_depth {
-                return;
+                return sink.ended(PathEnd::Depth);
             }
             let mut lobes = Lobes::ALL;
             if vertex.bsdf.has_diffuse() {
@@ -147,21 +167,22 @@ impl Tracer for Eye<'_> {
                 }
                 self.merge(&walk, &vertex, sink);
                 if !vertex.bsdf.lobes().contains(Lobes::SPECULAR) {
-                    return;
+                    return sink.ended(PathEnd::Complete);
                 }
                 lobes = Lobes::DELTA;
             } else if let Some(direct) = direct(walk.scene(), &vertex, &mut sampler) {
                 let origin = Origin {
                     layer: LightLayer::Direct,
                     technique: Technique::Direct,
-                    light: Some(direct.light),
+                    source: Source::Light(direct.light),
                 };
                 sink.add(origin, walk.throughput * direct.radiance);
             }
-            if walk.scatter_lobes(&vertex, lobes, &mut sampler).is_none()
-                || !walk.roulette(walk.survival() / FAINT, &mut sampler)
-            {
-                return;
+            if walk.scatter_lobes(&vertex, lobes, &mut sampler).is_none() {
+                return sink.ended(PathEnd::Absorbed);
+            }
+            if !walk.roulette(walk.survival() / FAINT, &mut sampler) {
+                return sink.ended(PathEnd::Roulette);
             }
         }
     }
@@ -180,8 +201,11 @@ impl Eye<'_> {
     fn straight(&self, walk: &Walk<'_>, vertex: &Vertex, sampler: &mut Sampler, sink: &mut impl Sink) {
         let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
         if let Some(direct) = direct_against(walk.scene(), vertex, self.rays, u_light, u) {
-            let origin =
-                Origin { layer: LightLayer::Direct, technique: Technique::Direct, light: Some(direct.light) };
+            let origin = Origin {
+                layer: LightLayer::Direct,
+                technique: Technique::Direct,
+                source: Source::Light(direct.light),
+            };
             sink.add(origin, walk.throughput * direct.radiance);
         }
         let mut ray = *walk;
@@ -201,23 +225,23 @@ impl Eye<'_> {
 
     /// Light that photons bring to a D surface.
     #[inline]
-    fn merge(&self, walk: &Walk<'_>, vertex: &Vertex, sink: &mut impl Sink) {
+    fn merge<S: Sink>(&self, walk: &Walk<'_>, vertex: &Vertex, sink: &mut S) {
         let Some(map) = self.map else { return };
         let radius = self.radius.at(vertex.footprint);
         // The events before, and the one here, count on the whole path.
         let most = self.max_depth - walk.depth - 1;
-        let mut sums = [Lanes::ZERO; 3];
+        let mut sums: [S::Sum; 3] = Default::default();
         let count = merge_within(map, vertex, radius, KERNEL, |photon, radiance| {
             let depth = u32::from(photon.depth());
             if depth <= most {
-                sums[layer_of(depth, photon.flags())] += radiance;
+                let flags = photon.flags();
+                sums[layer_of(depth, flags)].add(Source::of_flags(flags), radiance);
             }
         });
         if count > 0 {
             let layers = [LightLayer::Direct, LightLayer::Caustic, LightLayer::Indirect];
             for (layer, sum) in layers.into_iter().zip(sums) {
-                let origin = Origin { layer, technique: Technique::Merge, light: None };
-                sink.add(origin, walk.throughput * sum);
+                sink.add_sum(layer, Technique::Merge, sum.map(|sum| walk.throughput * sum));
             }
             sink.density(count as f32 / (std::f32::consts::PI * radius * radius));
         }

@@ -16,7 +16,8 @@ use transport::Connections;
 
 use crate::pixels::trace_pixels;
 use crate::radius::PassRadius;
-use crate::{Integrator, Maps, Settings, TracedPhotons, VcmTechniques};
+use crate::replay::record_pixel;
+use crate::{Integrator, Maps, PathRecord, PhotonKind, Settings, TracedPhotons, VcmTechniques};
 
 pub(crate) use light::{LightSide, LightTrace};
 
@@ -114,5 +115,29 @@ impl Integrator for Vcm {
         let mut samples = trace_pixels(scene, &self.settings, pass, &eye);
         splat::add(&maps.light_side.splats, &self.settings.filter, [width, height], &mut samples);
         PassFilm::new(width, height, samples)
+    }
+
+    fn replay_pixel(&self, scene: &Scene, maps: Option<&Maps>, pass: u64, pixel: [usize; 2]) -> PathRecord {
+        let none = Maps::default();
+        let maps = maps.unwrap_or(&none);
+        let size = scene.resolution().map(|n| n as usize);
+        let eye = eye::Eye::new(self.plan(scene, pass), maps, self.settings.seed, pass);
+        let mut recording = record_pixel(scene, &self.settings, pass, pixel, &eye);
+        let (splats, weight) = (&maps.light_side.splats, recording.weight());
+        splat::add_to_pixel(splats, &self.settings.filter, size, pixel, weight, &mut recording);
+        recording.finish()
+    }
+
+    fn photon_paths(&self, scene: &Scene) -> Vec<(PhotonKind, u64)> {
+        vec![(PhotonKind::Global, self.plan(scene, 0).count)]
+    }
+
+    fn replay_photon(&self, scene: &Scene, map_index: u64, kind: PhotonKind, path: u64) -> PathRecord {
+        match kind {
+            PhotonKind::Global => {
+                light::replay(scene, &self.plan(scene, map_index), self.settings.seed, map_index, path)
+            }
+            PhotonKind::Caustic => PathRecord::default(),
+        }
     }
 }

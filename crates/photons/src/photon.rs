@@ -31,6 +31,21 @@ impl PhotonFlags {
     /// Every scattering event before this hit was specular, and there was at least one (L S⁺ D).
     pub const CAUSTIC: Self = Self(1);
 
+    /// Groups of lights that can be told apart.
+    pub const MOST_GROUPS: u32 = 127;
+
+    /// Marks a photon of a light of that group; none from [`Self::MOST_GROUPS`] on.
+    #[inline]
+    pub const fn of_group(group: u32) -> Self {
+        if group < Self::MOST_GROUPS { Self((group as u8 + 1) << 1) } else { Self::NONE }
+    }
+
+    /// The group of the light, where it is known.
+    #[inline]
+    pub const fn group(self) -> Option<u8> {
+        (self.0 >> 1).checked_sub(1)
+    }
+
     /// Whether all bits of `other` are set.
     #[inline]
     pub const fn contains(self, other: Self) -> bool {
@@ -105,6 +120,18 @@ mod tests {
         assert!(worst < 7e-5, "0.004° {worst}");
         assert!((bias / f64::from(n)).length() < 1e-6, "{bias}");
         assert!((cosine_bias / f64::from(n)).abs() < 1e-6, "{cosine_bias}");
+    }
+
+    #[test]
+    fn groups_are_kept_beside_the_other_marks() {
+        for group in 0..PhotonFlags::MOST_GROUPS {
+            let flags = PhotonFlags::of_group(group);
+            assert_eq!(flags.group().map(u32::from), Some(group));
+            assert!(!flags.contains(PhotonFlags::CAUSTIC));
+            assert_eq!(flags.with(PhotonFlags::CAUSTIC).group(), flags.group());
+        }
+        assert_eq!(PhotonFlags::of_group(PhotonFlags::MOST_GROUPS).group(), None);
+        assert_eq!(PhotonFlags::CAUSTIC.group(), None);
     }
 
     #[test]

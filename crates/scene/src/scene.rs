@@ -32,11 +32,17 @@ pub(crate) enum Outer {
 pub struct Scene {
     pub(crate) bvh: Bvh,
     pub(crate) outer: Vec<Outer>,
+    /// Of an object or an instance, as in the description; empty where it has none.
+    pub(crate) outer_names: Vec<String>,
+    pub(crate) material_names: Vec<String>,
     pub(crate) groups: Vec<Group>,
     pub(crate) materials: Vec<Material>,
     pub(crate) textures: Vec<Texture>,
     pub(crate) lights: Vec<Light>,
     pub(crate) light_names: Vec<String>,
+    /// By light.
+    pub(crate) light_groups: Vec<u32>,
+    pub(crate) group_names: Vec<String>,
     /// Lights that rays reach by leaving the scene.
     pub(crate) environments: Vec<LightId>,
     pub(crate) light_media: Vec<MediumStack>,
@@ -103,6 +109,19 @@ impl Scene {
         &self.materials
     }
 
+    /// What a material is called in the description; `None` where it has no name there.
+    pub fn material_name(&self, id: MaterialId) -> Option<&str> {
+        self.material_names.get(id.0 as usize).map(String::as_str).filter(|name| !name.is_empty())
+    }
+
+    /// The name of the object, or of the instance or its group, that a ray meets first; `None` where it has no name or
+    /// there is none. For messages: the ray is traced anew.
+    pub fn object_name(&self, ray: &Ray) -> Option<&str> {
+        let hit = self.bvh.closest(ray)?;
+        let id = if hit.instance == NO_INSTANCE { hit.geom } else { hit.instance };
+        self.outer_names.get(id as usize).map(String::as_str).filter(|name| !name.is_empty())
+    }
+
     /// Lights by id.
     pub fn lights(&self) -> &[Light] {
         &self.lights
@@ -117,6 +136,18 @@ impl Scene {
     /// What a light is called in messages.
     pub fn light_name(&self, id: LightId) -> &str {
         self.light_names.get(id.0 as usize).map_or("", String::as_str)
+    }
+
+    /// The group of a light, an index of [`Self::light_groups`].
+    #[inline]
+    pub fn light_group(&self, id: LightId) -> u32 {
+        self.light_groups.get(id.0 as usize).copied().unwrap_or(0)
+    }
+
+    /// Names of the groups of lights, as the description has them: lights without a group are one by themselves, named
+    /// like the light.
+    pub fn light_groups(&self) -> &[String] {
+        &self.group_names
     }
 
     /// The dielectrics that a light lies in.

@@ -151,6 +151,12 @@ impl LightChain {
         Self { start, is_delta, is_infinite, emission, direct, clear: true, length: 0 }
     }
 
+    /// Where it came from.
+    #[inline]
+    pub(crate) fn light(&self) -> LightId {
+        self.start.light
+    }
+
     /// `walk` has just reached a vertex.
     #[inline]
     pub fn reach(&mut self, walk: &Walk<'_>) {

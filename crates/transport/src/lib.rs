@@ -11,13 +11,14 @@ mod light_densities;
 mod light_path;
 mod merge;
 mod mis;
+mod observe;
 mod path_class;
 mod photon;
 mod project;
 mod subpath;
 mod walk;
 
-pub use caustics::{CausticBatch, CausticJob, trace_caustics};
+pub use caustics::{CausticBatch, CausticJob, observe_caustic, trace_caustics};
 pub use chain::{EyeChain, LightChain, LightStart};
 pub use connect::{MergingWeights, connect, connect_light, emission_against_all, escape_against_all};
 pub use direct::{
@@ -26,14 +27,15 @@ pub use direct::{
 };
 pub use emit::{EmittedPhoton, emit, emit_mixed, emit_toward_targets, emit_toward_targets_with};
 pub use light_densities::LightDensities;
-pub use light_path::{LightClass, LightVertex, trace_light_path};
-pub use merge::{Lookup, Merged, irradiance, merge, merge_within, nearest_irradiance};
+pub use light_path::{LightClass, LightVertex, observe_light_path, trace_light_path};
+pub use merge::{Lookup, Merged, irradiance, merge, merge_each, merge_within, nearest_irradiance};
 pub use mis::{
     Connections, End, Scattering, SubpathMis, connection_weight, direct_weight, emission_weight,
     projection_weight,
 };
+pub use observe::{Observer, PathEnd};
 pub use path_class::{LightLayer, PathClass};
-pub use photon::{PhotonBalance, PhotonBatch, PhotonJob, PhotonPaths, trace_photons};
+pub use photon::{PhotonBalance, PhotonBatch, PhotonJob, PhotonPaths, observe_photon, trace_photons};
 pub use project::{Projection, is_seen, project};
 pub use subpath::{EyeEnd, PathVertex, Subpath};
 pub use walk::{ENDLESS_DEPTH, Scattered, Vertex, Walk};

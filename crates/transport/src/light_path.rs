@@ -5,7 +5,7 @@ use sampling::Sampler;
 use scene::{LightId, Scene};
 
 use crate::subpath::{PathVertex, Subpath};
-use crate::{Connections, LightLayer, PathClass, Walk};
+use crate::{Connections, LightLayer, Observer, PathClass, PathEnd, Walk};
 
 /// Which events a light path has had, as far as the layers of whole paths depend on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -69,25 +69,56 @@ pub fn trace_light_path(
     max_depth: u32,
     connections: Connections,
     sampler: &mut Sampler,
-    mut f: impl FnMut(&LightVertex),
+    f: impl FnMut(&LightVertex),
 ) {
-    let Some((light, mut path)) = start(scene, connections, sampler) else { return };
+    observe_light_path(scene, max_depth, connections, sampler, &mut (), f);
+}
+
+/// [`trace_light_path`], shown to an observer.
+#[inline]
+pub fn observe_light_path(
+    scene: &Scene,
+    max_depth: u32,
+    connections: Connections,
+    sampler: &mut Sampler,
+    observer: &mut impl Observer,
+    f: impl FnMut(&LightVertex),
+) {
+    let Some((light, path)) = start(scene, connections, sampler) else { return };
+    observer.started(&path.walk, light);
+    let end = follow(light, path, max_depth, sampler, observer, f);
+    observer.ended(end);
+}
+
+#[inline]
+fn follow(
+    light: LightId,
+    mut path: Subpath<'_>,
+    max_depth: u32,
+    sampler: &mut Sampler,
+    observer: &mut impl Observer,
+    mut f: impl FnMut(&LightVertex),
+) -> PathEnd {
     let mut class = LightClass::default();
     while let Some(at) = path.next_vertex() {
+        observer.reached(&path.walk, &at.vertex);
         let bsdf = &at.vertex.bsdf;
         if bsdf.lobes() == Lobes::NONE {
-            return;
+            return PathEnd::Absorbed;
         }
         let (flux, depth) = (path.walk.throughput, path.walk.depth);
         if !bsdf.is_delta_only() {
             f(&LightVertex { at, flux, depth, class, light, u_lens: sampler.next_2d() });
         }
         if depth + 1 >= max_depth {
-            return;
+            return PathEnd::Depth;
         }
-        let Some(scattered) = path.scatter(&at, Lobes::ALL, sampler) else { return };
+        let Some(scattered) = path.scatter(&at, Lobes::ALL, sampler) else {
+            return PathEnd::Lost;
+        };
         class = class.scattered(!bsdf.has_diffuse() || scattered.lobes.contains(Lobes::SPECULAR));
     }
+    PathEnd::Escaped
 }
 
 /// Φ = Le·cosθ / (p_light · p_area · p_direction) (Jensen 2001, §5.1).

@@ -96,6 +96,25 @@ pub fn merge(map: &PhotonMap, vertex: &Vertex, lookup: &Lookup, scratch: &mut Sc
     Merged { radiance, radius: found.radius, count: found.count }
 }
 
+/// The photons of the estimate that [`merge`] makes: calls `f` with each and the radiance that it adds toward `vertex.wo`.
+pub fn merge_each(
+    map: &PhotonMap,
+    vertex: &Vertex,
+    lookup: &Lookup,
+    scratch: &mut Scratch,
+    mut f: impl FnMut(&PhotonView<'_>, Lanes),
+) {
+    let receiver = Receiver::new(vertex);
+    map.gather_knn(
+        &query(vertex, lookup.max_radius, lookup.kernel),
+        lookup.knn,
+        scratch,
+        |photon, weight| {
+            f(photon, receiver.reflected(photon, weight));
+        },
+    );
+}
+
 /// The same estimate with a given radius: calls `f` with each photon and the radiance that it adds toward `vertex.wo`,
 /// and returns their number.
 #[inline]

@@ -6,7 +6,7 @@ use photons::{Photon, PhotonFlags};
 use sampling::{Domain, Sampler, Streams};
 use scene::Scene;
 
-use crate::{EmittedPhoton, Vertex, Walk, emit, emit_mixed, emit_toward_targets};
+use crate::{EmittedPhoton, Observer, PathEnd, Vertex, Walk, emit, emit_mixed, emit_toward_targets};
 
 /// Which photons are wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,6 +85,21 @@ impl PhotonBalance {
 
 /// Traces the photons of a range of path indices (Jensen 1996; Russian roulette: Arvo & Kirk 1990).
 pub fn trace_photons(scene: &Scene, job: &PhotonJob, range: Range<u64>) -> PhotonBatch {
+    trace(scene, job, range, &mut ())
+}
+
+/// Traces one path of a job again, and shows it to an observer.
+pub fn observe_photon(
+    scene: &Scene,
+    job: &PhotonJob,
+    path: u64,
+    observer: &mut impl Observer,
+) -> PhotonBatch {
+    trace(scene, job, path..path + 1, observer)
+}
+
+#[inline]
+fn trace(scene: &Scene, job: &PhotonJob, range: Range<u64>, observer: &mut impl Observer) -> PhotonBatch {
     let paths = (range.end - range.start) as usize;
     let mut batch = PhotonBatch { photons: Vec::with_capacity(2 * paths), ..PhotonBatch::default() };
     let share = 1.0 / job.count as f32;
@@ -102,10 +117,13 @@ pub fn trace_photons(scene: &Scene, job: &PhotonJob, range: Range<u64>) -> Photo
             }
             _ => emit(scene, &mut sampler),
         };
-        let Some(EmittedPhoton { mut walk, .. }) = emitted else { continue };
+        let Some(EmittedPhoton { mut walk, light }) = emitted else { continue };
         walk.throughput *= share;
+        observer.started(&walk, light);
         batch.balance.emitted += flux(&walk);
-        trace_one(&mut walk, job, path, &mut sampler, &mut batch);
+        let group = PhotonFlags::of_group(scene.light_group(light));
+        let end = trace_one(&mut walk, job, path, group, &mut sampler, &mut batch, observer);
+        observer.ended(end);
     }
     batch
 }
@@ -118,29 +136,34 @@ fn trace_one(
     walk: &mut Walk<'_>,
     job: &PhotonJob,
     path: u64,
+    group: PhotonFlags,
     sampler: &mut Sampler,
     batch: &mut PhotonBatch,
-) {
+    observer: &mut impl Observer,
+) -> PathEnd {
     let mut diffuse_events = 0u32;
     let mut specular_events = 0u32;
     loop {
         let Some(vertex) = walk.next_vertex() else {
             batch.balance.escaped += flux(walk);
-            return;
+            return PathEnd::Escaped;
         };
+        observer.reached(walk, &vertex);
         if !walk.throughput.is_finite() {
             batch.nonfinite.push((path, walk.depth));
-            return;
+            return PathEnd::NonFinite;
         }
         let is_d = vertex.bsdf.has_diffuse();
         if is_d && wanted(job.paths, diffuse_events, specular_events) {
             let caustic = wanted(PhotonPaths::Caustic, diffuse_events, specular_events);
             let flags = if caustic { PhotonFlags::CAUSTIC } else { PhotonFlags::NONE };
-            batch.photons.push(photon(walk, &vertex, flags));
+            let photon = photon(walk, &vertex, flags.with(group));
+            observer.stored(&photon);
+            batch.photons.push(photon);
         }
         if walk.depth + 1 >= job.max_depth {
             batch.balance.cut += flux(walk);
-            return;
+            return PathEnd::Depth;
         }
         let allowed = match (job.paths, is_d) {
             (PhotonPaths::Caustic, true) => Lobes::DELTA,
@@ -149,11 +172,16 @@ fn trace_one(
         let before = walk.throughput;
         let before_flux = flux(walk);
         let Some(scattered) = walk.scatter_lobes(&vertex, allowed, sampler) else {
-            match job.paths {
-                PhotonPaths::Caustic if is_d => batch.balance.cut += before_flux,
-                _ => batch.balance.absorbed += before_flux,
-            }
-            return;
+            return match job.paths {
+                PhotonPaths::Caustic if is_d => {
+                    batch.balance.cut += before_flux;
+                    PathEnd::Complete
+                }
+                _ => {
+                    batch.balance.absorbed += before_flux;
+                    PathEnd::Absorbed
+                }
+            };
         };
         let after_flux = flux(walk);
         batch.balance.absorbed += before_flux - after_flux;
@@ -162,7 +190,7 @@ fn trace_one(
         let survived = walk.roulette(survival, sampler);
         batch.balance.roulette += after_flux - if survived { flux(walk) } else { 0.0 };
         if !survived {
-            return;
+            return PathEnd::Roulette;
         }
         if is_d && !scattered.lobes.contains(Lobes::SPECULAR) {
             diffuse_events += 1;

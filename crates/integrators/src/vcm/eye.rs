@@ -7,8 +7,8 @@ use photons::Kernel;
 use sampling::{Domain, Sampler, Streams};
 use scene::LightId;
 use transport::{
-    Connections, Emission, LightClass, LightLayer, LightVertex, MergingWeights, PathClass, PathVertex,
-    Subpath, connect, connect_light, emission_against_all, escape_against_all, merge_within,
+    Connections, Emission, LightClass, LightLayer, LightVertex, MergingWeights, PathClass, PathEnd,
+    PathVertex, Subpath, connect, connect_light, emission_against_all, escape_against_all, merge_within,
     trace_light_path,
 };
 
@@ -16,7 +16,7 @@ use super::{Merging, Plan};
 use crate::Maps;
 use crate::VcmTechniques;
 use crate::pixels::{CameraPath, Tracer};
-use crate::sink::{Origin, Sink, Technique};
+use crate::sink::{Origin, Sink, Source, Technique};
 
 pub(super) struct Eye<'a> {
     plan: Plan,
@@ -57,7 +57,7 @@ impl Tracer for Eye<'_> {
                 for e in escape_against_all(path.scene(), path.end(), eta) {
                     self.add_emission(&path, class, &e, sink);
                 }
-                return;
+                return sink.ended(PathEnd::Escaped);
             };
             sink.reached(&path.walk, &at.vertex);
             if path.walk.depth == 0 {
@@ -67,7 +67,7 @@ impl Tracer for Eye<'_> {
                 self.add_emission(&path, class, &e, sink);
             }
             if path.walk.depth >= plan.max_depth || plan.techniques == VcmTechniques::LightTracing {
-                return;
+                return sink.ended(PathEnd::Depth);
             }
             let specular = !at.vertex.bsdf.has_diffuse();
             let mut lobes = Lobes::ALL;
@@ -87,7 +87,9 @@ impl Tracer for Eye<'_> {
                     }
                 }
             }
-            let Some(scattered) = path.scatter(&at, lobes, &mut sampler) else { return };
+            let Some(scattered) = path.scatter(&at, lobes, &mut sampler) else {
+                return sink.ended(PathEnd::Lost);
+            };
             class = class.scattered(specular || scattered.lobes.contains(Lobes::SPECULAR));
         }
     }
@@ -104,7 +106,8 @@ impl Eye<'_> {
     #[inline]
     fn add_emission(&self, path: &Subpath<'_>, class: PathClass, e: &Emission, sink: &mut impl Sink) {
         let weight = if path.walk.depth == 0 { 1.0 } else { e.weight };
-        let origin = Origin { layer: class.layer(), technique: Technique::Emission, light: Some(e.light) };
+        let origin =
+            Origin { layer: class.layer(), technique: Technique::Emission, source: Source::Light(e.light) };
         sink.add(origin, path.walk.throughput * e.radiance * weight);
     }
 
@@ -120,13 +123,17 @@ impl Eye<'_> {
     ) {
         let (scene, walk) = (path.scene(), &path.walk);
         if let Some(direct) = connect_light(scene, here.at, here.eta, sampler) {
-            let origin =
-                Origin { layer: here.class.layer(), technique: Technique::Direct, light: Some(direct.light) };
+            let origin = Origin {
+                layer: here.class.layer(),
+                technique: Technique::Direct,
+                source: Source::Light(direct.light),
+            };
             sink.add(origin, walk.throughput * direct.radiance);
         }
         let vertices = lights.vertices.get_or_insert_with(|| {
             // Any of them, whatever the pixel.
             let index = (u64::from(sampler.next_u32()) * self.plan.count) >> 32;
+            sink.joined(index);
             let mut vertices = Vec::with_capacity(8);
             let mut stream = self.light_paths.path(index);
             let depth = self.plan.max_depth - walk.depth - 1;
@@ -141,7 +148,8 @@ impl Eye<'_> {
             if let Some(radiance) = connect(scene, here.at, light, here.eta) {
                 let specular = !light.at.vertex.bsdf.has_diffuse();
                 let layer = light.class.scattered(specular).after(here.class).layer();
-                let origin = Origin { layer, technique: Technique::Connect, light: Some(light.light) };
+                let origin =
+                    Origin { layer, technique: Technique::Connect, source: Source::Light(light.light) };
                 sink.add(origin, walk.throughput * radiance);
             }
         }
@@ -200,7 +208,7 @@ impl Sums {
     fn give(&mut self, throughput: Lanes, sink: &mut impl Sink) {
         for (sum, layer) in self.sums.iter_mut().zip(self.layers) {
             if !sum.is_zero() {
-                let origin = Origin { layer, technique: Technique::Merge, light: Some(self.light) };
+                let origin = Origin { layer, technique: Technique::Merge, source: Source::Light(self.light) };
                 sink.add(origin, throughput * *sum);
                 *sum = Lanes::ZERO;
             }

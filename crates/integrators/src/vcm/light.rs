@@ -1,16 +1,20 @@
 //! The light paths of a pass: photons with what weights need of them, and splats.
 
+use std::cell::RefCell;
+
 use photons::{Photon, PhotonFlags, PhotonMap};
 use sampling::{Domain, Streams};
 use scene::{LightId, Scene};
 use transport::{
-    Connections, LightClass, LightVertex, PathClass, SubpathMis, is_seen, project, trace_light_path,
+    Connections, LightClass, LightVertex, Observer, PathClass, PathEnd, SubpathMis, Vertex, Walk, is_seen,
+    observe_light_path, project, trace_light_path,
 };
 
 use super::splat::Splat;
 use super::{Merging, Plan};
 use crate::maps::StoredMap;
-use crate::{Maps, TracedPhotons, VcmTechniques};
+use crate::replay::{PhotonRecording, layer_name};
+use crate::{Maps, NonFinitePhoton, PathEvent, PathRecord, PhotonKind, TracedPhotons, VcmTechniques};
 
 /// Light paths of one task; fixed, so that results do not depend on the number of threads.
 const CHUNK: usize = 1024;
@@ -46,7 +50,7 @@ pub(crate) struct LightSide {
 struct Batch {
     photons: Vec<Photon>,
     trace: LightTrace,
-    nonfinite: Vec<(u64, u32)>,
+    nonfinite: Vec<NonFinitePhoton>,
 }
 
 pub(super) fn trace(scene: &Scene, plan: &Plan, seed: u64, map_index: u64) -> TracedPhotons {
@@ -73,13 +77,57 @@ pub(super) fn trace(scene: &Scene, plan: &Plan, seed: u64, map_index: u64) -> Tr
     out
 }
 
+/// A light path again, with what it leaves.
+pub(super) fn replay(scene: &Scene, plan: &Plan, seed: u64, map_index: u64, path: u64) -> PathRecord {
+    let mut sampler = Streams::new(seed, map_index, Domain::LightPath).path(path);
+    // The path is watched and what it leaves is kept at once.
+    let recording = RefCell::new(PhotonRecording::default());
+    observe_light_path(
+        scene,
+        plan.max_depth,
+        plan.connections,
+        &mut sampler,
+        &mut Watched(&recording),
+        |vertex| {
+            let mut batch = Batch::default();
+            batch.add(scene, plan, path, vertex);
+            let mut recording = recording.borrow_mut();
+            batch.photons.iter().for_each(|photon| recording.stored(photon));
+            recording.events.extend(batch.trace.splats.iter().map(|splat| PathEvent::Splat {
+                film_position: splat.film_position.to_array(),
+                layer: layer_name(splat.layer),
+                radiance: splat.radiance.to_rgb(),
+            }));
+        },
+    );
+    recording.into_inner().finish()
+}
+
+/// A recording that others write to as well.
+struct Watched<'r>(&'r RefCell<PhotonRecording>);
+
+impl Observer for Watched<'_> {
+    fn started(&mut self, walk: &Walk<'_>, light: LightId) {
+        self.0.borrow_mut().started(walk, light);
+    }
+
+    fn reached(&mut self, walk: &Walk<'_>, vertex: &Vertex) {
+        self.0.borrow_mut().reached(walk, vertex);
+    }
+
+    fn ended(&mut self, end: PathEnd) {
+        self.0.borrow_mut().ended(end);
+    }
+}
+
 impl Batch {
     fn add(&mut self, scene: &Scene, plan: &Plan, path: u64, vertex: &LightVertex) {
         if vertex.depth >= plan.max_depth {
             return;
         }
         if !vertex.flux.is_finite() {
-            self.nonfinite.push((path, vertex.depth));
+            let (kind, depth) = (PhotonKind::Global, vertex.depth);
+            self.nonfinite.push(NonFinitePhoton { kind, path, depth });
             return;
         }
         if plan.connections == Connections::Made {

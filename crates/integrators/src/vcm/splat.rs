@@ -6,7 +6,7 @@ use math::Vec2;
 use scene::LightId;
 use transport::LightLayer;
 
-use crate::sink::{Origin, Sink, Technique};
+use crate::sink::{Origin, Sink, Source, Technique};
 
 /// A vertex of a light path seen by the camera.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +16,12 @@ pub(crate) struct Splat {
     pub radiance: Lanes,
     pub layer: LightLayer,
     pub light: LightId,
+}
+
+impl Splat {
+    fn origin(&self) -> Origin {
+        Origin { layer: self.layer, technique: Technique::Project, source: Source::Light(self.light) }
+    }
 }
 
 /// Rows that are filled at once. Part of no result: each pixel adds its splats in index order.
@@ -32,8 +38,7 @@ pub(super) fn add(splats: &[Splat], filter: &Filter, size: [usize; 2], samples: 
         let rows = band * BAND..band * BAND + samples.len() / size[0];
         let (first, last) = (rows.start as f32 - reach, rows.end as f32 + reach);
         for splat in splats.iter().filter(|s| (first..=last).contains(&s.film_position.y)) {
-            let origin =
-                Origin { layer: splat.layer, technique: Technique::Project, light: Some(splat.light) };
+            let origin = splat.origin();
             filter.spread(splat.film_position, size, |x, y, weight| {
                 if rows.contains(&y) {
                     let sample = &mut samples[(y - rows.start) * size[0] + x];
@@ -42,4 +47,24 @@ pub(super) fn add(splats: &[Splat], filter: &Filter, size: [usize; 2], samples: 
             });
         }
     });
+}
+
+/// What [`add`] adds to one pixel, for replays; `weight`: of its sample.
+pub(super) fn add_to_pixel(
+    splats: &[Splat],
+    filter: &Filter,
+    size: [usize; 2],
+    pixel: [usize; 2],
+    weight: f32,
+    sink: &mut impl Sink,
+) {
+    let reach = filter.radius() + 0.5;
+    let (first, last) = (pixel[1] as f32 - reach, (pixel[1] + 1) as f32 + reach);
+    for splat in splats.iter().filter(|s| (first..=last).contains(&s.film_position.y)) {
+        filter.spread(splat.film_position, size, |x, y, share| {
+            if [x, y] == pixel {
+                sink.add(splat.origin(), splat.radiance * (share / weight));
+            }
+        });
+    }
 }

@@ -90,6 +90,15 @@ impl<'d> Library<'d> {
         self.materials[id.0 as usize].needs_no_uv()
     }
 
+    /// Names by id; empty for materials without one.
+    pub fn names(&self) -> Vec<String> {
+        let mut names = vec![String::new(); self.materials.len()];
+        for (name, id) in &self.named {
+            names[id.0 as usize] = (*name).to_owned();
+        }
+        names
+    }
+
     pub fn finish(self) -> (Vec<Material>, Vec<Texture>) {
         (self.materials, self.textures)
     }

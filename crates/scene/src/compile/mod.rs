@@ -48,11 +48,14 @@ struct Compiler<'d> {
     diagnostics: Vec<Diagnostic>,
     lights: Vec<Light>,
     light_names: Vec<String>,
+    light_groups: Vec<u32>,
+    group_names: Vec<String>,
     /// A point on or at each light, from which the media around it are found.
     light_points: Vec<Option<Vec3>>,
     targets: Vec<Target>,
     geometry: Geometry,
     outer: Vec<Outer>,
+    outer_names: Vec<String>,
     triangles: u64,
     mesh_bytes: u64,
     bounds: Bounds3,
@@ -66,10 +69,13 @@ impl<'d> Compiler<'d> {
             diagnostics: Vec::new(),
             lights: Vec::new(),
             light_names: Vec::new(),
+            light_groups: Vec::new(),
+            group_names: Vec::new(),
             light_points: Vec::new(),
             targets: Vec::new(),
             geometry: Geometry::default(),
             outer: Vec::new(),
+            outer_names: Vec::new(),
             triangles: 0,
             mesh_bytes: 0,
             bounds: Bounds3::EMPTY,
@@ -136,7 +142,10 @@ impl<'d> Compiler<'d> {
     fn add_object(&mut self, placed: Placed) {
         self.bounds = self.bounds.union(placed.solid.bounds());
         let light = placed.emission.and_then(|emission| match lights::area_light(&placed.solid, &emission) {
-            Some(light) => Some(self.push_light(light, placed.name.clone(), Some(placed.solid.a_point()))),
+            Some(light) => {
+                let named = (!placed.name.is_empty()).then_some(placed.name.as_str());
+                Some(self.push_light(light, placed.name.clone(), named, Some(placed.solid.a_point())))
+            }
             None => {
                 self.diagnostics.push(
                     Diagnostic::error("no-area", "this object shines but has no area")
@@ -148,6 +157,7 @@ impl<'d> Compiler<'d> {
         self.aim_at(placed.material, &placed.solid, None);
         let object = self.object(placed.solid, placed.material, light, true);
         self.outer.push(Outer::Object(object));
+        self.outer_names.push(placed.name);
     }
 
     /// Makes caustic photons aim at a solid, if it is specular.
@@ -238,6 +248,7 @@ impl<'d> Compiler<'d> {
                 // A group holds no instances, so this one cannot be refused.
                 if self.geometry.add_instance(bvh, transform).is_ok() {
                     self.outer.push(Outer::Instance { group: id, render_from_object: transform, material });
+                    self.outer_names.push(instance.name.as_ref().unwrap_or(&instance.group).clone());
                 }
             }
             let shining = self.place(&group.objects, Some(&transform));
@@ -269,7 +280,8 @@ impl<'d> Compiler<'d> {
         match lights::light(&light.kind) {
             Some((compiled, point)) => {
                 let name = light.name.clone().unwrap_or_else(|| lights::kind_name(&compiled).to_owned());
-                self.push_light(compiled, name, point);
+                let group = light.name.as_deref();
+                self.push_light(compiled, name, group, point);
             }
             None => self.diagnostics.push(
                 Diagnostic::error(
@@ -281,8 +293,22 @@ impl<'d> Compiler<'d> {
         }
     }
 
-    fn push_light(&mut self, light: Light, name: String, point: Option<Vec3>) -> LightId {
-        let name = if name.is_empty() { format!("lamp {}", self.lights.len() + 1) } else { name };
+    fn push_light(
+        &mut self,
+        light: Light,
+        name: String,
+        group: Option<&str>,
+        point: Option<Vec3>,
+    ) -> LightId {
+        let number = self.lights.len() + 1;
+        let kind = lights::kind_name(&light);
+        let group = group.map_or_else(|| format!("{kind} {number}"), str::to_owned);
+        let name = if name.is_empty() { format!("lamp {number}") } else { name };
+        let group = self.group_names.iter().position(|n| *n == group).unwrap_or_else(|| {
+            self.group_names.push(group);
+            self.group_names.len() - 1
+        });
+        self.light_groups.push(group as u32);
         self.lights.push(light);
         self.light_names.push(name);
         self.light_points.push(point);
@@ -329,10 +355,13 @@ impl<'d> Compiler<'d> {
             .map(LightId)
             .filter(|id| matches!(self.lights[id.0 as usize], Light::Environment(_)))
             .collect();
+        let material_names = self.library.names();
         let (materials, textures) = self.library.finish();
         let mut scene = Scene {
             bvh,
             outer: self.outer,
+            outer_names: self.outer_names,
+            material_names,
             groups,
             materials,
             textures,
@@ -343,6 +372,8 @@ impl<'d> Compiler<'d> {
             caustic_picker: LightPicker::caustics(&self.lights, &targets),
             lights: self.lights,
             light_names: self.light_names,
+            light_groups: self.light_groups,
+            group_names: self.group_names,
             targets,
             camera,
             camera_medium: MediumStack::default(),
