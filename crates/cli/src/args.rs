@@ -7,7 +7,7 @@ use std::time::Duration;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use nephroid::desc::IntegratorKind;
-use nephroid::{Extent, Film};
+use nephroid::{Extent, Film, PhotonKind};
 
 use crate::span;
 
@@ -34,6 +34,8 @@ pub enum Command {
     Merge(MergeArgs),
     /// Say what is in a scene or a checkpoint, without rendering it.
     Info(InfoArgs),
+    /// Trace one path of a render again and print it, vertex by vertex.
+    Replay(ReplayArgs),
     /// Compare pictures with a reference, in linear radiance.
     Compare(CompareArgs),
     /// Print the reference of scene files.
@@ -191,6 +193,53 @@ pub struct InfoArgs {
     pub scene: SceneArgs,
 }
 
+/// Arguments of `replay`.
+#[derive(Debug, Args)]
+#[command(group = clap::ArgGroup::new("path").required(true).args(["pixel", "photon"]))]
+pub struct ReplayArgs {
+    /// The scene and its changes as they were rendered, or a checkpoint of that render.
+    #[command(flatten)]
+    pub scene: SceneArgs,
+
+    /// The pass, counted from 0.
+    #[arg(long, value_name = "P")]
+    pub pass: u64,
+
+    /// The camera path through this pixel: column and row, counted from 0 at the top left, as 10,20.
+    #[arg(long, value_name = "X,Y", value_parser = parse_pixel)]
+    pub pixel: Option<[u32; 2]>,
+
+    /// The photon path of this index, as warnings name it.
+    #[arg(long, value_name = "N")]
+    pub photon: Option<u64>,
+
+    /// Which photons [default: all that have a path of that index].
+    #[arg(long, value_name = "MAP", requires = "photon")]
+    pub map: Option<PhotonMap>,
+
+    /// Print JSON, one object a path.
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Photons, as warnings name them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum PhotonMap {
+    /// From all lights everywhere; the light paths of vcm too.
+    Global,
+    /// Aimed at mirrors, metal and glass.
+    Caustic,
+}
+
+impl From<PhotonMap> for PhotonKind {
+    fn from(map: PhotonMap) -> Self {
+        match map {
+            PhotonMap::Global => Self::Global,
+            PhotonMap::Caustic => Self::Caustic,
+        }
+    }
+}
+
 /// Arguments of `compare`.
 #[derive(Debug, Args)]
 pub struct CompareArgs {
@@ -265,6 +314,14 @@ fn parse_size(text: &str) -> Result<[u32; 2], String> {
     Ok(size)
 }
 
+fn parse_pixel(text: &str) -> Result<[u32; 2], String> {
+    let numbers = text.split_once(',').map(|(x, y)| (x.trim().parse(), y.trim().parse()));
+    let Some((Ok(x), Ok(y))) = numbers else {
+        return Err("a pixel is its column and its row, as 10,20".to_owned());
+    };
+    Ok([x, y])
+}
+
 fn parse_exposure(text: &str) -> Result<f32, String> {
     let value: f32 = text.parse().map_err(|_| "an exposure is a number of stops, as 1.5 or -2".to_owned())?;
     if (-64.0..=64.0).contains(&value) {
@@ -335,6 +392,14 @@ mod tests {
         assert_eq!(parse_size("7X5"), Ok([7, 5]));
         for wrong in ["", "640", "640x", "0x5", "5x0", "-1x5", "65537x1", "1x2x3", "axb", "65536x65536"] {
             assert!(parse_size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn pixels() {
+        assert_eq!(parse_pixel("10,20"), Ok([10, 20]));
+        for wrong in ["", "10", "10,", "-1,2", "1,2,3", "a,b"] {
+            assert!(parse_pixel(wrong).is_err(), "{wrong}");
         }
     }
 

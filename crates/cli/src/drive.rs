@@ -10,16 +10,19 @@ use crate::args::RunArgs;
 use crate::failure::{FAILED, Failure, OK, Outcome};
 use crate::info::bytes;
 use crate::progress::{Position, Progress, duration};
+use crate::replay::key_arguments;
 use crate::say;
 use crate::signals::{INTERRUPTED, Interrupt};
 
-/// Renders what is missing and writes the pictures. `timings`: what came before.
+/// Renders what is missing and writes the pictures. `timings`: what came before; `again`: what `nephroid replay` is to be
+/// given to trace paths of this render.
 pub fn drive(
     mut session: Session,
     outputs: &[Output],
     info: &PictureInfo,
     args: RunArgs,
     mut timings: Timings,
+    again: &str,
 ) -> Outcome {
     let mut progress = Progress::new(args.quiet);
     let handle = progress.clone();
@@ -27,7 +30,7 @@ pub fn drive(
         handle.line("interrupted: the picture is written after this pass; once more ends at once");
     })
     .map_err(|e| Failure::runtime(format!("Ctrl-C cannot be caught: {e}")))?;
-    let mut teller = Teller::default();
+    let mut teller = Teller { again, maps: false, saved: None };
     let result = session.run(&mut |event| {
         teller.tell(&mut progress, event);
         if interrupt.is_asked() { Control::Stop } else { Control::Continue }
@@ -67,14 +70,15 @@ pub fn drive(
 }
 
 /// What was told already.
-#[derive(Default)]
-struct Teller {
+struct Teller<'a> {
+    /// As for [`drive`].
+    again: &'a str,
     maps: bool,
     /// Passes and size of the last checkpoint.
     saved: Option<(u64, u64)>,
 }
 
-impl Teller {
+impl Teller<'_> {
     fn tell(&mut self, progress: &mut Progress, event: Event<'_>) {
         match event {
             Event::PhaseStarted(phase) => progress.doing(phase.name()),
@@ -86,7 +90,11 @@ impl Teller {
             Event::PassDone { done, passes, elapsed, remaining, .. } => {
                 progress.pass(&Position { done, passes, elapsed, remaining });
             }
-            Event::Warning(warning) => warn(progress, &warning),
+            Event::Warning(warning) => {
+                let key = key_arguments(warning.replay_key());
+                let command = format!("nephroid replay {} {key}", self.again);
+                warn(progress, &format!("{warning}\n  = help: trace its path again: {command}"));
+            }
             Event::CheckpointWritten { passes, bytes, .. } => self.saved = Some((passes, bytes)),
             Event::CheckpointFailed { error, .. } => {
                 let older = self.saved.map_or(String::new(), |(passes, _)| {

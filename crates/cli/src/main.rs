@@ -11,6 +11,8 @@ mod manual;
 mod merge;
 mod progress;
 mod render;
+mod replay;
+mod replay_json;
 mod resume;
 mod say;
 mod scene;
@@ -29,6 +31,7 @@ fn main() -> ExitCode {
         Command::Resume(args) => resume::run(&args),
         Command::Merge(args) => merge::run(&args),
         Command::Info(args) => info::run(&args),
+        Command::Replay(args) => replay::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Describe(args) => describe::run(&args),
         Command::Completions { shell } => manual::completions(shell),

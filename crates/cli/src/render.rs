@@ -11,6 +11,7 @@ use crate::args::RenderArgs;
 use crate::checkpoint;
 use crate::drive::{absolute, drive};
 use crate::failure::{Failure, Outcome};
+use crate::replay::scene_arguments;
 use crate::say;
 use crate::scene::{compiled, describe};
 
@@ -52,7 +53,8 @@ pub fn run(args: &RenderArgs) -> Outcome {
             hash
         }
     };
-    drive(session, &outputs, &PictureInfo::new(desc, hash), args.run, described.timings)
+    let info = PictureInfo::new(desc, hash);
+    drive(session, &outputs, &info, args.run, described.timings, &scene_arguments(&args.scene))
 }
 
 /// The passes that were asked for: a range, a number, those of the scene, or with nothing but a time, without end.

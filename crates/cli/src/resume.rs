@@ -10,6 +10,7 @@ use crate::checkpoint;
 use crate::drive::drive;
 use crate::failure::{Failure, Outcome};
 use crate::render::{checked, refusal};
+use crate::replay::quoted;
 use crate::say;
 
 /// Goes on with a checkpoint.
@@ -42,7 +43,8 @@ pub fn run(args: &ResumeArgs) -> Outcome {
             (None, _) => format!("going on with {name}: {done} passes are done"),
         });
     }
-    drive(session, &outputs, &PictureInfo::new(&info.desc, info.hash), args.run, timings)
+    let picture = PictureInfo::new(&info.desc, info.hash);
+    drive(session, &outputs, &picture, args.run, timings, &quoted(&args.checkpoint.to_string_lossy()))
 }
 
 fn failure(error: &CheckpointError) -> Failure {

@@ -41,7 +41,10 @@ pub use film::{
     CompareError, Comparison, Film, Layer, OutputError, ReadError, RgbImage, check_writable, compare,
     difference, discard_unfinished, encode_png_bytes, write_atomically,
 };
-pub use integrators::{IntegratorKind, MapReport, PhotonMapSettings, Settings};
+pub use integrators::{
+    IntegratorKind, MapReport, PathEnd, PathEvent, PathRecord, PhotonKind, PhotonMapSettings, Settings,
+    Technique, VertexRecord,
+};
 pub use math::Vec3;
 pub use scene::{Light, LightId, Scene};
 pub use scenefile::{
@@ -51,7 +54,7 @@ pub use scenefile::{
 pub use session::{
     Checkpoint, CheckpointError, CheckpointErrorKind, CheckpointFile, CheckpointInfo, CompileError, Compiled,
     Control, Event, Extent, Job, MergeError, Outcome, Output, OutputKind, Overrides, Phase, PictureError,
-    PictureInfo, Remaining, Resumed, SceneHash, Session, SessionError, Timings, Warning, check_outputs,
-    compile, film_bytes, gaps, merge, overwritten_inputs, resume, said, scene_hash, settings,
-    write_checkpoint,
+    PictureInfo, Remaining, ReplayError, ReplayKey, Replayed, Resumed, SceneHash, Session, SessionError,
+    Timings, Warning, check_outputs, compile, film_bytes, gaps, merge, overwritten_inputs, replay, resume,
+    said, scene_hash, settings, write_checkpoint,
 };

@@ -4,9 +4,9 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use film::{Film, FilmNonFinite, OutputError};
-use integrators::MapReport;
+use integrators::{MapReport, NonFinitePhoton};
 
-use crate::{Phase, Remaining};
+use crate::{Phase, Remaining, ReplayKey};
 
 /// What a session tells its observer.
 #[derive(Debug)]
@@ -101,13 +101,27 @@ pub enum Warning {
     NonFinitePhotons {
         /// Index of the maps.
         map_index: u64,
-        /// Path of the first: with the seed and the index, the key to trace it again.
-        path: u64,
-        /// Scattering events before it went wrong.
-        depth: u32,
+        /// The first: with the seed and the index, the key to trace its path again.
+        first: NonFinitePhoton,
         /// How many.
         count: u64,
     },
+}
+
+impl Warning {
+    /// The path to trace again ([`crate::replay()`]).
+    pub fn replay_key(&self) -> ReplayKey {
+        match *self {
+            Self::NonFinite { first, width, .. } => {
+                let (pixel, width) = (first.at.pixel as usize, width.max(1));
+                ReplayKey::Pixel { pass: first.pass, x: (pixel % width) as u32, y: (pixel / width) as u32 }
+            }
+            // Where maps are shared, passes have the index of the first that uses them.
+            Self::NonFinitePhotons { map_index, first, .. } => {
+                ReplayKey::Photon { pass: map_index, kind: Some(first.kind), path: first.path }
+            }
+        }
+    }
 }
 
 impl fmt::Display for Warning {
@@ -125,11 +139,13 @@ impl fmt::Display for Warning {
                     first.at.layer.name()
                 )
             }
-            Self::NonFinitePhotons { map_index, path, depth, count } => write!(
+            Self::NonFinitePhotons { map_index, first, count } => write!(
                 f,
-                "{count} photon{} not finite and dropped from maps {map_index}; the first: path {path} after {depth} \
-                 scattering events",
+                "{count} photon{} not finite and dropped from maps {map_index}; the first: path {} after {} scattering \
+                 events",
                 if *count == 1 { " is" } else { "s are" },
+                first.path,
+                first.depth,
             ),
         }
     }

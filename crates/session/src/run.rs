@@ -73,9 +73,9 @@ impl Run<'_> {
         let start = Instant::now();
         let (scene, integrator) = (self.scene, self.fold.integrator);
         let photons = self.phase(Phase::Photons, || integrator.trace_photons(scene, index))?;
-        if let Some(&(path, depth)) = photons.nonfinite.first() {
+        if let Some(&first) = photons.nonfinite.first() {
             let count = photons.nonfinite.len() as u64;
-            let warning = Warning::NonFinitePhotons { map_index: index, path, depth, count };
+            let warning = Warning::NonFinitePhotons { map_index: index, first, count };
             self.fold.tell(Event::Warning(warning));
         }
         let maps = self.phase(Phase::MapBuild, || integrator.build_maps(scene, photons))?;

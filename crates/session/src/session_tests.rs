@@ -2,7 +2,7 @@ use super::*;
 use crate::Phase;
 use film::PassFilm;
 use film::{Layer, PixelSample};
-use integrators::TracedPhotons;
+use integrators::{NonFinitePhoton, PathRecord, PhotonKind, TracedPhotons};
 use scenefile::SceneDesc;
 use scenefile::desc::{Camera, IntegratorKind, Light, LightKind, Material, Object, Shape};
 
@@ -36,7 +36,9 @@ impl Integrator for Fake {
     fn trace_photons(&self, _: &Scene, map_index: u64) -> TracedPhotons {
         let mut photons = TracedPhotons::default();
         if map_index == 1 {
-            photons.nonfinite = vec![(9, 2), (11, 0)];
+            let kind = PhotonKind::Global;
+            photons.nonfinite =
+                [(9, 2), (11, 0)].map(|(path, depth)| NonFinitePhoton { kind, path, depth }).to_vec();
         }
         photons
     }
@@ -51,6 +53,15 @@ impl Integrator for Fake {
             pixels[7].caustic[1] = f32::NAN;
         }
         PassFilm::new(w, h, pixels)
+    }
+    fn replay_pixel(&self, _: &Scene, _: Option<&Maps>, _: u64, _: [usize; 2]) -> PathRecord {
+        PathRecord::default()
+    }
+    fn photon_paths(&self, _: &Scene) -> Vec<(PhotonKind, u64)> {
+        Vec::new()
+    }
+    fn replay_photon(&self, _: &Scene, _: u64, _: PhotonKind, _: u64) -> PathRecord {
+        PathRecord::default()
     }
 }
 

@@ -7,6 +7,7 @@ mod interrupt;
 mod long;
 mod manual;
 mod outputs;
+mod replay;
 mod reports;
 mod sessions;
 mod threads;

@@ -15,6 +15,7 @@ mod lamps;
 mod nephroid_curve;
 mod nested;
 mod oracle;
+mod replay;
 mod sppm;
 mod support;
 mod traps;

@@ -49,7 +49,8 @@ pub enum CheckpointErrorKind {
 }
 
 impl CheckpointError {
-    pub(crate) fn new(path: &Path, kind: CheckpointErrorKind) -> Self {
+    /// Of the file at `path`.
+    pub fn new(path: &Path, kind: CheckpointErrorKind) -> Self {
         Self { path: path.to_owned(), kind }
     }
 
