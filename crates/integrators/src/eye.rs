@@ -136,7 +136,12 @@ impl Eye<'_> {
                 let origin = Origin { layer, technique, source: Source::Light(direct.light) };
                 sink.add(origin, walk.throughput * direct.radiance);
             }
-            let delta = vertex.bsdf.delta_lobes(vertex.wo, TransportMode::Radiance);
+            // Where a lobe of finite width is left as well, one of them all is drawn.
+            let delta = if lobes == Lobes::DELTA || vertex.bsdf.is_delta_only() {
+                vertex.bsdf.delta_lobes(vertex.wo, TransportMode::Radiance)
+            } else {
+                [None; 2]
+            };
             match delta {
                 [Some(first), Some(second)] if splits > 0 => {
                     splits -= 1;

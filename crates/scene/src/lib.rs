@@ -15,7 +15,10 @@ pub use camera::Camera;
 pub use compile::compile;
 pub use interaction::{LightId, SurfaceInteraction};
 pub use light::Light;
-pub use material::{ColorSource, FloatSource, Material, MaterialId, MaterialKind};
+pub use material::{
+    CoatedConductorMaterial, CoatedDiffuseMaterial, ColorSource, ConductorMaterial, DielectricMaterial,
+    FloatSource, Material, MaterialId, MaterialKind, PrincipledMaterial, RoughnessSource,
+};
 pub use medium::{Boundary, Medium, MediumStack};
 pub use scene::{Scene, Summary};
 pub use shape::{Object, Shape};

@@ -324,6 +324,17 @@ impl<'a> Reader<'a> {
         self.take(report, name, read, |preset| preset_number(preset).map(FloatDesc::from))
     }
 
+    pub(crate) fn optional_float_desc(&self, report: &mut Report, name: &str) -> Option<Option<FloatDesc>> {
+        self.take_optional(report, name, |report, what, key, node| {
+            convert::float_desc(report, what, range(key), node)
+        })
+    }
+
+    /// Whether tables of this kind have the key.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        self.keys().iter().any(|key| key.name == name)
+    }
+
     pub(crate) fn ior(&self, report: &mut Report, name: &str) -> Option<Ior> {
         let read = |report: &mut Report, what: &str, key: &Key, node: &Node| {
             convert::ior(report, what, range(key), node)

@@ -177,14 +177,14 @@ power = 2
                |
             14 | [materials.red]
                | ^^^^^^^^^^^^^^^
-               = help: it is "diffuse", "phong", "mirror", "dielectric", "conductor" or "plastic"
+               = help: it is "diffuse", "phong", "mirror", "dielectric", "conductor", "plastic", "rough-diffuse", "diffuse-transmission", "sheen", "thin-dielectric", "coated-diffuse", "coated-conductor" or "principled"
 
             error[unknown-key]: unknown key `roughness` in material `shiny`
               --> box.toml:18:1
                |
             18 | roughness = 0.1
                | ^^^^^^^^^
-               = help: only kind = "conductor" or "plastic" has it
+               = help: only kind = "dielectric", "conductor", "plastic", "rough-diffuse", "sheen", "thin-dielectric", "coated-diffuse", "coated-conductor" or "principled" has it
 
             error[missing-key]: missing `k` in material `gold`
               --> box.toml:19:1

@@ -111,7 +111,8 @@ fn companions(section: &Section, kind: &str, key: &str) -> (&'static [&'static s
         ("lights", "point" | "spot", "power") => (&["intensity"], ""),
         ("lights", "point" | "spot", "color") => (&["intensity"], "power = 3\n"),
         ("lights", "spot", "target") => (&["direction"], ""),
-        ("materials", "conductor", "metal") => (&["n", "k"], ""),
+        ("materials", "conductor" | "coated-conductor", "metal") => (&["n", "k"], ""),
+        ("materials", _, "alpha_across") => (&[], "alpha = 0.75\n"),
         _ => (&[], ""),
     }
 }
@@ -254,7 +255,8 @@ fn ranges_hold_at_their_ends() {
                     // Other rules than the range bind these.
                     let bound = (allowed && key.name == "falloff_angle")
                         || (allowed && key.name == "color" && with.contains("power"))
-                        || (allowed && kind == "phong" && key.name != "exponent");
+                        || (allowed && kind == "phong" && key.name != "exponent")
+                        || (allowed && kind == "diffuse-transmission");
                     if bound {
                         continue;
                     }

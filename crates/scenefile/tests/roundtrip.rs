@@ -88,8 +88,31 @@ impl Dice {
         self.coin().then(|| format!("Ä.{number} \t'\u{7f}"))
     }
 
-    fn material(&mut self) -> Material {
-        let kind = match self.below(6) {
+    fn roughness(&mut self) -> Roughness {
+        match self.below(3) {
+            0 => self.float().into(),
+            1 => {
+                Roughness::Perceived { roughness: self.float(), anisotropy: (self.unit() * 2.0 - 1.0).into() }
+            }
+            _ => Roughness::Alpha { along: self.float(), across: self.float() },
+        }
+    }
+
+    fn facets(&mut self) -> Facets {
+        [Facets::Conserving, Facets::SingleBounce, Facets::Beckmann][self.below(3) as usize]
+    }
+
+    fn film(&mut self) -> ThinFilm {
+        ThinFilm { thickness_nm: self.unit() * 4000.0, ior: 1.0 + self.unit() }
+    }
+
+    fn metal(&mut self) -> Metal {
+        let (n, k) = ([self.positive(), self.positive(), 1.5], self.amount());
+        if self.coin() { Metal::from("gold") } else { Metal::Index { n, k } }
+    }
+
+    fn kind(&mut self) -> MaterialKind {
+        match self.below(13) {
             0 => MaterialKind::Diffuse { color: self.color() },
             1 => {
                 let (diffuse, exponent) = (self.unit() * 0.5, self.positive().min(1e6));
@@ -100,24 +123,90 @@ impl Dice {
                 }
             }
             2 => MaterialKind::Mirror { color: self.color() },
-            3 => MaterialKind::Dielectric {
+            3 => MaterialKind::Dielectric(Dielectric {
                 ior: self.ior(),
                 color: self.color(),
+                specular: self.color(),
+                roughness: self.roughness(),
+                facets: self.facets(),
+                film: self.film(),
                 priority: self.next() as i32,
+            }),
+            4 => MaterialKind::Conductor(Conductor {
+                metal: self.metal(),
+                specular: self.color(),
+                roughness: self.roughness(),
+                facets: self.facets(),
+                film: self.film(),
+            }),
+            5 => MaterialKind::RoughDiffuse { color: self.color(), roughness: self.float() },
+            6 => MaterialKind::DiffuseTransmission {
+                reflectance: (self.unit() * 0.5).into(),
+                transmittance: self.color_of(0.5),
             },
-            4 => {
-                let (n, k) = ([self.positive(), self.positive(), 1.5], self.amount());
-                let metal = if self.coin() { Metal::from("gold") } else { Metal::Index { n, k } };
-                MaterialKind::Conductor { metal, roughness: self.float() }
-            }
-            _ => MaterialKind::Plastic { color: self.color(), ior: self.ior(), roughness: self.float() },
-        };
-        let glass = matches!(kind, MaterialKind::Dielectric { .. });
+            7 => MaterialKind::Sheen { color: self.color(), roughness: self.float() },
+            8 => MaterialKind::ThinDielectric(ThinDielectric {
+                ior: self.ior(),
+                color: self.color(),
+                specular: self.color(),
+                roughness: self.roughness(),
+            }),
+            9 => MaterialKind::CoatedDiffuse(CoatedDiffuse {
+                color: self.color(),
+                specular: self.color(),
+                ior: self.ior(),
+                roughness: self.roughness(),
+                facets: self.facets(),
+                nonlinear: self.coin(),
+                depth: self.unit() * 9.0,
+            }),
+            10 => MaterialKind::CoatedConductor(CoatedConductor {
+                metal: self.metal(),
+                roughness: self.roughness(),
+                ior: self.ior(),
+                coat_roughness: self.float(),
+                depth: self.unit(),
+                facets: self.facets(),
+            }),
+            11 => MaterialKind::Principled(Box::new(self.principled())),
+            _ => MaterialKind::Plastic { color: self.color(), ior: self.ior(), roughness: self.roughness() },
+        }
+    }
+
+    fn principled(&mut self) -> Principled {
+        Principled {
+            base_color: self.color(),
+            metallic: self.float(),
+            roughness: self.roughness(),
+            ior: self.ior(),
+            specular: self.float(),
+            specular_color: self.color(),
+            transmission: self.float(),
+            thin: self.coin(),
+            diffuse_transmission: self.float(),
+            sheen_color: self.color(),
+            sheen_roughness: self.float(),
+            clearcoat: self.float(),
+            clearcoat_roughness: self.float(),
+            film: self.float(),
+            film_thickness_nm: (self.unit() * 4000.0).into(),
+            film_ior: 1.0 + self.unit(),
+            priority: self.next() as i32,
+        }
+    }
+
+    /// A colour of at most `most`.
+    fn color_of(&mut self, most: f32) -> ColorDesc {
+        if self.coin() { ColorDesc::texture("plain") } else { (self.unit() * most).into() }
+    }
+
+    fn material(&mut self) -> Material {
+        let kind = self.kind();
         Material {
-            kind,
             normal_map: self.coin().then(|| "plain".into()),
             normal_strength: self.unit() * 2.0,
-            two_sided: glass || self.coin(),
+            two_sided: !kind.has_two_sided() || self.coin(),
+            kind,
         }
     }
 

@@ -1,4 +1,4 @@
-use bsdf::{BsdfKind, TransportMode};
+use bsdf::{BsdfKind, Lobes, TransportMode};
 use color::Lanes;
 use math::FRAC_1_PI;
 use photons::{Kernel, Neighbourhood, PhotonMap, PhotonView, Query, Scratch};
@@ -45,6 +45,12 @@ fn query(vertex: &Vertex, radius: f32, kernel: Kernel) -> Query {
     Query { position: vertex.hit.p, normal, radius, kernel }
 }
 
+/// The query for what a surface lets pass: on the other side. `None` where photons there are not seen.
+fn query_behind(vertex: &Vertex, front: &Query) -> Option<Query> {
+    let passes = vertex.bsdf.lobes().contains(Lobes::TRANSMISSION);
+    passes.then_some(Query { normal: -front.normal, ..*front })
+}
+
 /// What a surface reflects of photons: f toward `vertex.wo`, with the change from the cosine to the geometric normal,
 /// which the photons' density carries, to that of the shading normal.
 enum Receiver<'v> {
@@ -81,7 +87,8 @@ impl<'v> Receiver<'v> {
     }
 }
 
-/// Density estimation: L ≈ Σ f·Φ·k(d/r)/r² (Jensen 2001, eq. 7.7), no further cosine.
+/// Density estimation: L ≈ Σ f·Φ·k(d/r)/r² (Jensen 2001, eq. 7.7), no further cosine. Where the surface lets light pass, both
+/// sides are estimated, each from its own neighbours; radius and count are those of the side that is seen.
 pub fn merge(map: &PhotonMap, vertex: &Vertex, lookup: &Lookup, scratch: &mut Scratch) -> Merged {
     let query = query(vertex, lookup.max_radius, lookup.kernel);
     let receiver = Receiver::new(vertex);
@@ -93,6 +100,11 @@ pub fn merge(map: &PhotonMap, vertex: &Vertex, lookup: &Lookup, scratch: &mut Sc
     let found = map.gather_knn(&query, lookup.knn, scratch, |photon, weight| {
         radiance += receiver.reflected(photon, weight);
     });
+    if let Some(behind) = query_behind(vertex, &query) {
+        map.gather_knn(&behind, lookup.knn, scratch, |photon, weight| {
+            radiance += receiver.reflected(photon, weight);
+        });
+    }
     Merged { radiance, radius: found.radius, count: found.count }
 }
 
@@ -116,7 +128,7 @@ pub fn merge_each(
 }
 
 /// The same estimate with a given radius: calls `f` with each photon and the radiance that it adds toward `vertex.wo`,
-/// and returns their number.
+/// and returns their number. On both sides where the surface lets light pass.
 #[inline]
 pub fn merge_within(
     map: &PhotonMap,
@@ -126,7 +138,14 @@ pub fn merge_within(
     mut f: impl FnMut(&PhotonView<'_>, Lanes),
 ) -> usize {
     let receiver = Receiver::new(vertex);
-    map.gather(&query(vertex, radius, kernel), |photon, weight| f(photon, receiver.reflected(photon, weight)))
+    let front = query(vertex, radius, kernel);
+    let count = map.gather(&front, |photon, weight| f(photon, receiver.reflected(photon, weight)));
+    match query_behind(vertex, &front) {
+        None => count,
+        Some(behind) => {
+            count + map.gather(&behind, |photon, weight| f(photon, receiver.reflected(photon, weight)))
+        }
+    }
 }
 
 /// |cos to the shading normal| / |cos to the geometric normal|.

@@ -1,4 +1,4 @@
-use bsdf::{Bsdf, BsdfKind, Lobes, TransportMode};
+use bsdf::{Bsdf, Lobes, TransportMode};
 use math::Vec3;
 use sampling::Sampler;
 use scene::light::LeSample;
@@ -105,7 +105,7 @@ impl<'s> Subpath<'s> {
         }
         let wi = self.walk.ray.direction;
         self.leaving = if specular {
-            mis.passed(delta_ratio(vertex, wi, scattered.lobes))
+            mis.passed(delta_ratio(vertex, wi, &scattered))
         } else {
             let event = Scattering {
                 cos: geometric_cos(vertex, wi),
@@ -159,13 +159,11 @@ fn is_merged(bsdf: &Bsdf) -> bool {
 /// |cos θi| times the density of the delta lobe that leads back over that of the one which leads on. Both are chosen with
 /// one probability, which is spread over solid angles of the ratio dω_i/dω_o = (cos θo/cos θi)/η² at refraction, η being
 /// the index on the side of `wi` over that on the side of `wo` (Veach 1997, §5.2.2); else 1.
-fn delta_ratio(vertex: &Vertex, wi: Vec3, lobes: Lobes) -> f64 {
-    match *vertex.bsdf.kind() {
-        BsdfKind::Dielectric { eta, .. } if lobes.contains(Lobes::TRANSMISSION) => {
-            let eta = if vertex.bsdf.ns().dot(vertex.wo) > 0.0 { eta } else { 1.0 / eta };
-            geometric_cos(vertex, vertex.wo) / f64::from(eta).powi(2)
-        }
-        _ => geometric_cos(vertex, wi),
+fn delta_ratio(vertex: &Vertex, wi: Vec3, scattered: &Scattered) -> f64 {
+    if scattered.lobes.contains(Lobes::TRANSMISSION) {
+        geometric_cos(vertex, vertex.wo) / f64::from(scattered.eta).powi(2)
+    } else {
+        geometric_cos(vertex, wi)
     }
 }
 

@@ -63,6 +63,8 @@ pub struct Scattered {
     pub lobes: Lobes,
     /// Whether light sampling could have found what the ray meets: the event had a non-delta part.
     pub lit: bool,
+    /// Where transmitted, the index on the side that the ray goes to over that on the other; else 1.
+    pub eta: f32,
 }
 
 impl<'s> Walk<'s> {
@@ -172,6 +174,7 @@ impl<'s> Walk<'s> {
             pdf_w: sample.pdf_w,
             lobes: sample.lobes,
             lit: !sample.lobes.contains(Lobes::SPECULAR),
+            eta: sample.eta,
         };
         self.last = Some(scattered);
         (!self.throughput.is_zero()).then_some(scattered)
@@ -180,7 +183,8 @@ impl<'s> Walk<'s> {
     /// Continues along one delta lobe, without choosing: its weight is all of f·|cos|.
     pub fn follow_delta(&mut self, vertex: &Vertex, lobe: &DeltaLobe) {
         self.follow(vertex, lobe.wi, lobe.weight, lobe.lobes, lobe.eta);
-        self.last = Some(Scattered { p: vertex.hit.p, pdf_w: 0.0, lobes: lobe.lobes, lit: false });
+        let (lobes, eta) = (lobe.lobes, lobe.eta);
+        self.last = Some(Scattered { p: vertex.hit.p, pdf_w: 0.0, lobes, lit: false, eta });
     }
 
     #[inline]

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use nephroid::SceneDesc;
-use nephroid::desc::{Light, LightKind, Material, Metal, Object, PointAmount, Shape};
+use nephroid::desc::{Dielectric, Light, LightKind, Material, Metal, Object, PointAmount, Shape};
 use testkit::Moments;
 use transport::{PhotonBalance, PhotonPaths};
 
@@ -13,11 +13,7 @@ use crate::support::*;
 fn zoo() -> SceneDesc {
     let ball = |x: f32, y: f32, m: Material| Object::new(sphere([x, y, 0.0], 0.3), m);
     let metal = Metal::Index { n: [0.2, 0.9, 1.1], k: [3.0, 2.5, 2.0] };
-    let tinted = nephroid::desc::MaterialKind::Dielectric {
-        ior: 1.5.into(),
-        color: [0.9, 0.95, 1.0].into(),
-        priority: 0,
-    };
+    let tinted = Dielectric { color: [0.9, 0.95, 1.0].into(), ..Dielectric::default() };
     let walls = [
         ground(-1.0, 1.0),
         Shape::Quad { origin: [-1.0, -1.0, -1.0], edge_u: [2.0, 0.0, 0.0], edge_v: [0.0, 2.0, 0.0] },

@@ -12,6 +12,7 @@ mod depth;
 mod determinism;
 mod furnace;
 mod lamps;
+mod materials;
 mod nephroid_curve;
 mod nested;
 mod oracle;

@@ -1,14 +1,14 @@
 //! Dielectrics within dielectrics.
 
 use nephroid::SceneDesc;
-use nephroid::desc::{Ior, Material, MaterialKind, MaterialRef, Object, Shape};
+use nephroid::desc::{Dielectric, Material, MaterialRef, Object, Shape};
 
 use transport::PhotonPaths;
 
 use crate::support::*;
 
 fn glass(ior: f32, priority: i32) -> Material {
-    MaterialKind::Dielectric { ior: Ior::Value(ior), color: 1.0.into(), priority }.into()
+    Dielectric { ior: ior.into(), priority, ..Dielectric::default() }.into()
 }
 
 fn block(min: f32, max: f32, material: impl Into<MaterialRef>) -> Object {

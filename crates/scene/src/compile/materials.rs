@@ -1,12 +1,16 @@
 use std::collections::BTreeMap;
 
+use bsdf::{Facets, Film, Interior};
 use color::Lanes;
 use math::Vec2;
 use scenefile::desc::{self, ColorDesc, FloatDesc, Ior, MaterialRef, Metal, SceneDesc};
 use scenefile::{Diagnostic, Sourced};
 
 use crate::texture::{Checker, Encoding, Filter, ImageTexture, UvMap, Wrap};
-use crate::{ColorSource, FloatSource, Material, MaterialId, MaterialKind, Texture};
+use crate::{
+    CoatedConductorMaterial, CoatedDiffuseMaterial, ColorSource, ConductorMaterial, DielectricMaterial,
+    FloatSource, Material, MaterialId, MaterialKind, PrincipledMaterial, RoughnessSource, Texture,
+};
 
 /// Checkers within checkers, at most: a cycle ends here.
 const DEEPEST_CHECKER: u32 = 16;
@@ -47,8 +51,8 @@ impl<'d> Library<'d> {
             // Equal ones are one: the boundaries of a solid must agree on what they bound.
             MaterialRef::Inline(material) => {
                 let id = self.add(material);
-                let added = self.materials[id.0 as usize];
-                let first = self.materials.iter().position(|m| *m == added).unwrap_or(id.0 as usize);
+                let added = &self.materials[id.0 as usize];
+                let first = self.materials.iter().position(|m| m == added).unwrap_or(id.0 as usize);
                 if first < id.0 as usize {
                     self.materials.pop();
                 }
@@ -83,7 +87,7 @@ impl<'d> Library<'d> {
     }
 
     pub fn specular_weight(&self, id: MaterialId) -> f32 {
-        self.materials[id.0 as usize].specular_weight(&self.textures)
+        self.materials[id.0 as usize].kind.specular_weight(&self.textures)
     }
 
     pub fn needs_no_uv(&self, id: MaterialId) -> bool {
@@ -127,18 +131,108 @@ impl<'d> Library<'d> {
                 exponent: self.float(exponent),
             },
             desc::MaterialKind::Mirror { color } => MaterialKind::Mirror { color: self.color(color) },
-            desc::MaterialKind::Dielectric { ior, color, priority } => {
-                MaterialKind::Dielectric { ior: self.ior(ior), color: self.color(color), priority: *priority }
-            }
-            desc::MaterialKind::Conductor { metal, roughness } => {
-                let (n, k) = self.metal(metal);
-                MaterialKind::Conductor { n, k, roughness: self.float(roughness) }
+            desc::MaterialKind::Dielectric(m) => MaterialKind::Dielectric(DielectricMaterial {
+                ior: self.ior(&m.ior),
+                color: self.color(&m.color),
+                specular: self.color(&m.specular),
+                roughness: self.roughness(&m.roughness),
+                facets: facets(m.facets),
+                film: [m.film.thickness_nm, m.film.ior],
+                priority: m.priority,
+            }),
+            desc::MaterialKind::Conductor(m) => {
+                let (n, k) = self.metal(&m.metal);
+                MaterialKind::Conductor(ConductorMaterial {
+                    n,
+                    k,
+                    specular: self.color(&m.specular),
+                    roughness: self.roughness(&m.roughness),
+                    facets: facets(m.facets),
+                    film: Film::new(m.film.thickness_nm, m.film.ior),
+                })
             }
             desc::MaterialKind::Plastic { color, ior, roughness } => MaterialKind::Plastic {
                 color: self.color(color),
                 ior: self.ior(ior),
-                roughness: self.float(roughness),
+                roughness: self.roughness(roughness),
             },
+            desc::MaterialKind::RoughDiffuse { color, roughness } => {
+                MaterialKind::RoughDiffuse { color: self.color(color), roughness: self.float(roughness) }
+            }
+            desc::MaterialKind::DiffuseTransmission { reflectance, transmittance } => {
+                MaterialKind::DiffuseTransmission {
+                    reflectance: self.color(reflectance),
+                    transmittance: self.color(transmittance),
+                }
+            }
+            desc::MaterialKind::Sheen { color, roughness } => {
+                MaterialKind::Sheen { color: self.color(color), roughness: self.float(roughness) }
+            }
+            desc::MaterialKind::ThinDielectric(m) => MaterialKind::ThinDielectric {
+                ior: self.ior(&m.ior),
+                color: self.color(&m.color),
+                specular: self.color(&m.specular),
+                roughness: self.roughness(&m.roughness),
+            },
+            desc::MaterialKind::CoatedDiffuse(m) => {
+                MaterialKind::CoatedDiffuse(Box::new(CoatedDiffuseMaterial::new(
+                    self.color(&m.color),
+                    self.color(&m.specular),
+                    self.ior(&m.ior),
+                    self.roughness(&m.roughness),
+                    facets(m.facets),
+                    m.nonlinear,
+                    m.depth,
+                )))
+            }
+            desc::MaterialKind::CoatedConductor(m) => {
+                let (n, k) = self.metal(&m.metal);
+                MaterialKind::CoatedConductor(CoatedConductorMaterial {
+                    n,
+                    k,
+                    roughness: self.roughness(&m.roughness),
+                    ior: self.ior(&m.ior),
+                    coat_roughness: self.float(&m.coat_roughness),
+                    depth: m.depth,
+                    facets: facets(m.facets),
+                })
+            }
+            desc::MaterialKind::Principled(m) => MaterialKind::Principled(Box::new(self.principled(m))),
+        }
+    }
+
+    fn principled(&mut self, m: &'d desc::Principled) -> PrincipledMaterial {
+        PrincipledMaterial {
+            base_color: self.color(&m.base_color),
+            metallic: self.float(&m.metallic),
+            roughness: self.roughness(&m.roughness),
+            ior: self.ior(&m.ior),
+            specular: self.float(&m.specular),
+            specular_color: self.color(&m.specular_color),
+            transmission: self.float(&m.transmission),
+            interior: if m.thin { Interior::Thin } else { Interior::Solid },
+            diffuse_transmission: self.float(&m.diffuse_transmission),
+            sheen_color: self.color(&m.sheen_color),
+            sheen_roughness: self.float(&m.sheen_roughness),
+            clearcoat: self.float(&m.clearcoat),
+            clearcoat_roughness: self.float(&m.clearcoat_roughness),
+            film: self.float(&m.film),
+            film_thickness_nm: self.float(&m.film_thickness_nm),
+            film_ior: m.film_ior,
+            priority: m.priority,
+            is_solid: m.is_solid(),
+        }
+    }
+
+    fn roughness(&mut self, roughness: &'d desc::Roughness) -> RoughnessSource {
+        match roughness {
+            desc::Roughness::Perceived { roughness, anisotropy } => RoughnessSource::Perceived {
+                roughness: self.float(roughness),
+                anisotropy: self.float(anisotropy),
+            },
+            desc::Roughness::Alpha { along, across } => {
+                RoughnessSource::Alpha { along: self.float(along), across: self.float(across) }
+            }
         }
     }
 
@@ -279,5 +373,13 @@ impl<'d> Library<'d> {
                 }
             },
         }
+    }
+}
+
+fn facets(facets: desc::Facets) -> Facets {
+    match facets {
+        desc::Facets::Conserving => Facets::Conserving,
+        desc::Facets::SingleBounce => Facets::SingleBounce,
+        desc::Facets::Beckmann => Facets::Beckmann,
     }
 }

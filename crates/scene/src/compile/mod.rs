@@ -16,8 +16,7 @@ use crate::camera::{Fov, Lens};
 use crate::light::LightPicker;
 use crate::scene::{Group, Outer, media_at};
 use crate::{
-    Camera, Light, LightId, Material, MaterialId, MaterialKind, MediumStack, Object, Scene, Shape, Target,
-    Targets,
+    Camera, Light, LightId, Material, MaterialId, MediumStack, Object, Scene, Shape, Target, Targets,
 };
 use materials::Library;
 use shapes::Solid;
@@ -382,9 +381,7 @@ impl<'d> Compiler<'d> {
             triangles: self.triangles,
             mesh_bytes: self.mesh_bytes,
         };
-        let dielectrics =
-            scene.materials.iter().any(|m: &Material| matches!(m.kind, MaterialKind::Dielectric { .. }));
-        if dielectrics {
+        if scene.materials.iter().any(|m: &Material| m.medium(MaterialId(0)).is_some()) {
             scene.camera_medium = media_at(&scene, scene.camera.position());
             scene.light_media = self
                 .light_points

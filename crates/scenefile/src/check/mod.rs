@@ -1,5 +1,6 @@
 //! What can be wrong with a description whose every value is right: names, files, geometry without extent.
 
+mod material;
 mod shape;
 
 pub(crate) use shape::{step_fault, view_fault};
@@ -8,8 +9,8 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
 use crate::desc::{
-    ColorDesc, EmissionAmount, FloatDesc, Ior, LightKind, Material, MaterialKind, MaterialRef, Metal, Object,
-    PointAmount, SceneDesc, Shape, Texture, TransformStep, Triple,
+    ColorDesc, EmissionAmount, FloatDesc, LightKind, MaterialRef, Object, PointAmount, SceneDesc, Shape,
+    Texture, TransformStep, Triple,
 };
 use crate::diagnostic::{Diagnostic, Report, quoted};
 use crate::nearest::nearest;
@@ -242,49 +243,6 @@ impl Checker<'_> {
         }
     }
 
-    fn material(&self, report: &mut Report, what: &str, material: &Material, span: Option<Span>) {
-        if let Some(name) = &material.normal_map {
-            self.texture_name(report, what, name);
-        }
-        match &material.kind {
-            MaterialKind::Diffuse { color } | MaterialKind::Mirror { color } => {
-                self.color(report, what, color)
-            }
-            MaterialKind::Phong { diffuse, specular, exponent } => {
-                self.color(report, what, diffuse);
-                self.color(report, what, specular);
-                self.float(report, what, exponent);
-                if let (ColorDesc::Rgb(d), ColorDesc::Rgb(s)) = (diffuse, specular)
-                    && (0..3).any(|i| d[i] as f64 + s[i] as f64 > 1.0 + 1e-6)
-                {
-                    let message = format!("{what} reflects more light than it gets");
-                    report.push(
-                        Diagnostic::error("out-of-range", message)
-                            .at(span)
-                            .help("`diffuse` and `specular` must add up to at most 1 in each channel"),
-                    );
-                }
-            }
-            MaterialKind::Dielectric { ior, color, .. } => {
-                substance_of(report, what, ior);
-                self.color(report, what, color);
-            }
-            MaterialKind::Conductor { metal, roughness } => {
-                if let Metal::Named(name) = metal
-                    && color::named_metal(name).is_none()
-                {
-                    unknown_substance(report, "metal", what, name, color::metal_names());
-                }
-                self.float(report, what, roughness);
-            }
-            MaterialKind::Plastic { color, ior, roughness } => {
-                substance_of(report, what, ior);
-                self.color(report, what, color);
-                self.float(report, what, roughness);
-            }
-        }
-    }
-
     fn material_ref(&self, report: &mut Report, what: &str, material: Option<&MaterialRef>) {
         match material {
             Some(MaterialRef::Named(name)) => {
@@ -370,34 +328,6 @@ impl Checker<'_> {
             );
         }
     }
-}
-
-/// The name of a refractive index must be known.
-fn substance_of(report: &mut Report, what: &str, ior: &Ior) {
-    if let Ior::Glass(name) = ior
-        && color::named_ior(name).is_none()
-    {
-        unknown_substance(report, "substance", what, name, color::ior_names());
-    }
-}
-
-fn unknown_substance(
-    report: &mut Report,
-    noun: &str,
-    what: &str,
-    name: &Sourced<String>,
-    known: impl Iterator<Item = &'static str>,
-) {
-    if report.count_if_full() {
-        return;
-    }
-    let known: Vec<&str> = known.collect();
-    let help = match nearest(name, known.iter().copied()) {
-        Some(near) => format!("did you mean {}?", quoted(near)),
-        None => format!("known are {}", known.join(", ")),
-    };
-    let message = format!("unknown {noun} {} in {what}", quoted(name));
-    report.push(Diagnostic::error("unknown-substance", message).at(name.span).help(help));
 }
 
 fn power(report: &mut Report, what: &str, watts: f32, color: Triple, span: Option<Span>) {

@@ -1,141 +1,7 @@
-//! Colours, textures and materials.
+//! Materials.
 
-use std::path::PathBuf;
-
-use super::Triple;
+use super::{ColorDesc, FloatDesc, Triple};
 use crate::source::Sourced;
-
-/// A colour: constant, or looked up in a texture.
-#[derive(Clone, Debug, PartialEq)]
-pub enum ColorDesc {
-    /// Linear RGB.
-    Rgb(Triple),
-    /// A texture by name.
-    Texture(Sourced<String>),
-}
-
-impl ColorDesc {
-    /// A texture by name.
-    pub fn texture(name: impl Into<String>) -> Self {
-        Self::Texture(name.into().into())
-    }
-}
-
-impl From<Triple> for ColorDesc {
-    fn from(rgb: Triple) -> Self {
-        Self::Rgb(rgb)
-    }
-}
-
-impl From<f32> for ColorDesc {
-    fn from(grey: f32) -> Self {
-        Self::Rgb([grey; 3])
-    }
-}
-
-/// A number: constant, or looked up in a texture (the mean of its channels).
-#[derive(Clone, Debug, PartialEq)]
-pub enum FloatDesc {
-    /// The same everywhere.
-    Value(f32),
-    /// A texture by name.
-    Texture(Sourced<String>),
-}
-
-impl FloatDesc {
-    /// A texture by name.
-    pub fn texture(name: impl Into<String>) -> Self {
-        Self::Texture(name.into().into())
-    }
-}
-
-impl From<f32> for FloatDesc {
-    fn from(value: f32) -> Self {
-        Self::Value(value)
-    }
-}
-
-/// How stored texel values become linear.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum ColorSpace {
-    /// Decode the sRGB curve (8-bit colour images); floating-point images are linear all the same.
-    #[default]
-    Srgb,
-    /// Take values as they are (normal maps, roughness).
-    Linear,
-}
-
-/// What lies outside the unit square of texture coordinates.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Wrap {
-    /// Copies.
-    #[default]
-    Repeat,
-    /// The border texels.
-    Clamp,
-    /// Mirrored copies.
-    Mirror,
-}
-
-/// How texels are interpolated.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum TextureFilter {
-    /// Between mip levels by footprint.
-    #[default]
-    Trilinear,
-    /// Between four texels.
-    Bilinear,
-    /// The nearest texel.
-    Nearest,
-}
-
-/// A texture: `[textures.NAME]`.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Texture {
-    /// A picture file.
-    Image {
-        /// PNG, JPEG, HDR or EXR; see [`resolve`](super::SceneDesc::resolve).
-        file: Sourced<PathBuf>,
-        /// How texels become linear.
-        color_space: ColorSpace,
-        /// What lies outside.
-        wrap: Wrap,
-        /// Interpolation.
-        filter: TextureFilter,
-        /// Texture coordinates are multiplied by this: copies per unit of u and v.
-        scale: [f32; 2],
-        /// Then this is added.
-        offset: [f32; 2],
-    },
-    /// Two colours in alternating squares of side 1/2 in scaled coordinates: one period per unit.
-    Checker {
-        /// Where the whole parts of 2u and 2v add up to an even number.
-        a: ColorDesc,
-        /// Elsewhere.
-        b: ColorDesc,
-        /// Texture coordinates are multiplied by this.
-        scale: [f32; 2],
-    },
-}
-
-impl Texture {
-    /// An sRGB picture, repeated, trilinear.
-    pub fn image(file: impl Into<PathBuf>) -> Self {
-        Self::Image {
-            file: file.into().into(),
-            color_space: ColorSpace::Srgb,
-            wrap: Wrap::Repeat,
-            filter: TextureFilter::Trilinear,
-            scale: [1.0; 2],
-            offset: [0.0; 2],
-        }
-    }
-
-    /// A checker of two colours.
-    pub fn checker(a: impl Into<ColorDesc>, b: impl Into<ColorDesc>, scale: [f32; 2]) -> Self {
-        Self::Checker { a: a.into(), b: b.into(), scale }
-    }
-}
 
 /// A refractive index.
 #[derive(Clone, Debug, PartialEq)]
@@ -178,6 +44,294 @@ impl From<&str> for Metal {
     }
 }
 
+/// Roughness of the facets of a surface.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Roughness {
+    /// As the eye judges it.
+    Perceived {
+        /// r, 0..=1: the GGX α is r²; 0 is smooth.
+        roughness: FloatDesc,
+        /// −1..=1: α is r²/a along the tangent and r²·a across it, a = √(1 − 0.9·anisotropy) (Burley 2012); a negative one
+        /// stretches across.
+        anisotropy: FloatDesc,
+    },
+    /// The GGX (or Beckmann) α itself.
+    Alpha {
+        /// Along the tangent (growing u).
+        along: FloatDesc,
+        /// Across it.
+        across: FloatDesc,
+    },
+}
+
+impl Default for Roughness {
+    /// Smooth.
+    fn default() -> Self {
+        0.0.into()
+    }
+}
+
+impl From<FloatDesc> for Roughness {
+    fn from(roughness: FloatDesc) -> Self {
+        Self::Perceived { roughness, anisotropy: 0.0.into() }
+    }
+}
+
+impl From<f32> for Roughness {
+    fn from(roughness: f32) -> Self {
+        FloatDesc::from(roughness).into()
+    }
+}
+
+impl Roughness {
+    /// α of an isotropic surface.
+    pub fn alpha(alpha: f32) -> Self {
+        Self::Alpha { along: alpha.into(), across: alpha.into() }
+    }
+}
+
+/// How the facets of a rough surface are modelled.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Facets {
+    /// GGX with the energy of several bounces restored.
+    #[default]
+    Conserving,
+    /// GGX, one bounce alone.
+    SingleBounce,
+    /// Beckmann, one bounce alone.
+    Beckmann,
+}
+
+/// A transparent film, thin enough for interference.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ThinFilm {
+    /// Thickness in nanometres; 0: none.
+    pub thickness_nm: f32,
+    /// Index relative to vacuum.
+    pub ior: f32,
+}
+
+impl Default for ThinFilm {
+    /// None.
+    fn default() -> Self {
+        Self { thickness_nm: 0.0, ior: 1.3 }
+    }
+}
+
+/// Glass or liquid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dielectric {
+    /// Refractive index.
+    pub ior: Ior,
+    /// Factor on what is transmitted at each crossing, 0..=1.
+    pub color: ColorDesc,
+    /// Factor on what is reflected, 0..=1.
+    pub specular: ColorDesc,
+    /// Of the surface.
+    pub roughness: Roughness,
+    /// Model of the facets.
+    pub facets: Facets,
+    /// On the outside.
+    pub film: ThinFilm,
+    /// Where solids overlap the highest counts; among equals the last entered.
+    pub priority: i32,
+}
+
+impl Default for Dielectric {
+    fn default() -> Self {
+        Self {
+            ior: 1.5.into(),
+            color: 1.0.into(),
+            specular: 1.0.into(),
+            roughness: Roughness::default(),
+            facets: Facets::default(),
+            film: ThinFilm::default(),
+            priority: 0,
+        }
+    }
+}
+
+/// A thin pane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ThinDielectric {
+    /// Refractive index.
+    pub ior: Ior,
+    /// Factor on what is transmitted, 0..=1.
+    pub color: ColorDesc,
+    /// Factor on what is reflected, 0..=1.
+    pub specular: ColorDesc,
+    /// Of its surfaces.
+    pub roughness: Roughness,
+}
+
+impl Default for ThinDielectric {
+    fn default() -> Self {
+        Self { ior: 1.5.into(), color: 1.0.into(), specular: 1.0.into(), roughness: Roughness::default() }
+    }
+}
+
+/// Metal.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Conductor {
+    /// Its complex index.
+    pub metal: Metal,
+    /// Factor on what is reflected, 0..=1.
+    pub specular: ColorDesc,
+    /// Of the surface.
+    pub roughness: Roughness,
+    /// Model of the facets.
+    pub facets: Facets,
+    /// On the surface.
+    pub film: ThinFilm,
+}
+
+impl Default for Conductor {
+    /// Smooth copper.
+    fn default() -> Self {
+        Self {
+            metal: "copper".into(),
+            specular: 1.0.into(),
+            roughness: Roughness::default(),
+            facets: Facets::default(),
+            film: ThinFilm::default(),
+        }
+    }
+}
+
+/// A diffuse base under a dielectric coat.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CoatedDiffuse {
+    /// Albedo of the base.
+    pub color: ColorDesc,
+    /// Factor on what the coat reflects, 0..=1.
+    pub specular: ColorDesc,
+    /// Index of the coat.
+    pub ior: Ior,
+    /// Of the coat.
+    pub roughness: Roughness,
+    /// Model of the facets.
+    pub facets: Facets,
+    /// Whether light that is thrown back onto the base takes its colour again each time.
+    pub nonlinear: bool,
+    /// Optical depth of the coat along its normal, ≥ 0.
+    pub depth: f32,
+}
+
+impl Default for CoatedDiffuse {
+    fn default() -> Self {
+        Self {
+            color: 0.5.into(),
+            specular: 1.0.into(),
+            ior: 1.5.into(),
+            roughness: Roughness::default(),
+            facets: Facets::default(),
+            nonlinear: true,
+            depth: 0.0,
+        }
+    }
+}
+
+/// A metal under a dielectric coat.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CoatedConductor {
+    /// The metal's complex index.
+    pub metal: Metal,
+    /// Of the metal.
+    pub roughness: Roughness,
+    /// Index of the coat.
+    pub ior: Ior,
+    /// The coat's GGX α is the square of this; 0 is smooth.
+    pub coat_roughness: FloatDesc,
+    /// Optical depth of the coat along its normal, ≥ 0.
+    pub depth: f32,
+    /// Model of the facets.
+    pub facets: Facets,
+}
+
+impl Default for CoatedConductor {
+    fn default() -> Self {
+        Self {
+            metal: "copper".into(),
+            roughness: Roughness::default(),
+            ior: 1.5.into(),
+            coat_roughness: 0.0.into(),
+            depth: 0.0,
+            facets: Facets::default(),
+        }
+    }
+}
+
+/// Parameters of the principled model, in this order from outside: sheen, clear coat, then metal or dielectric by `metallic`;
+/// the dielectric transmits specularly by `transmission`, or lies on a diffuse base.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Principled {
+    /// Reflectance of the diffuse base and of the metal; tint of transmission (its root at each crossing of a solid).
+    pub base_color: ColorDesc,
+    /// Share of metal.
+    pub metallic: FloatDesc,
+    /// Of metal and dielectric.
+    pub roughness: Roughness,
+    /// Index of the dielectric.
+    pub ior: Ior,
+    /// Factor on the dielectric's reflection.
+    pub specular: FloatDesc,
+    /// Its colour.
+    pub specular_color: ColorDesc,
+    /// Share of the dielectric that transmits specularly.
+    pub transmission: FloatDesc,
+    /// Whether the surface is a thin sheet; else it bounds a solid.
+    pub thin: bool,
+    /// Share of the diffuse base that is transmitted.
+    pub diffuse_transmission: FloatDesc,
+    /// Colour of the sheen; black: none.
+    pub sheen_color: ColorDesc,
+    /// α of the sheen is the square of this.
+    pub sheen_roughness: FloatDesc,
+    /// Share under a clear coat of index 1.5.
+    pub clearcoat: FloatDesc,
+    /// α of the coat is the square of this.
+    pub clearcoat_roughness: FloatDesc,
+    /// Share under a thin film.
+    pub film: FloatDesc,
+    /// Thickness of the film in nanometres.
+    pub film_thickness_nm: FloatDesc,
+    /// Index of the film.
+    pub film_ior: f32,
+    /// Rank among overlapping solids, as for dielectrics.
+    pub priority: i32,
+}
+
+impl Default for Principled {
+    fn default() -> Self {
+        Self {
+            base_color: 0.5.into(),
+            metallic: 0.0.into(),
+            roughness: 0.5.into(),
+            ior: 1.5.into(),
+            specular: 1.0.into(),
+            specular_color: 1.0.into(),
+            transmission: 0.0.into(),
+            thin: false,
+            diffuse_transmission: 0.0.into(),
+            sheen_color: 0.0.into(),
+            sheen_roughness: 0.3.into(),
+            clearcoat: 0.0.into(),
+            clearcoat_roughness: 0.03.into(),
+            film: 0.0.into(),
+            film_thickness_nm: 400.0.into(),
+            film_ior: 1.3,
+            priority: 0,
+        }
+    }
+}
+
+impl Principled {
+    /// Whether it may bound a solid that light enters: some of it transmits specularly, and it is no thin sheet.
+    pub fn is_solid(&self) -> bool {
+        !self.thin && self.transmission != FloatDesc::Value(0.0) && self.metallic != FloatDesc::Value(1.0)
+    }
+}
+
 /// How a surface scatters.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MaterialKind {
@@ -200,31 +354,48 @@ pub enum MaterialKind {
         /// Reflectance, 0..=1.
         color: ColorDesc,
     },
-    /// Smooth glass or liquid: reflects and refracts.
-    Dielectric {
-        /// Refractive index.
-        ior: Ior,
-        /// Factor on what is transmitted at each crossing, 0..=1.
-        color: ColorDesc,
-        /// Where solids overlap the highest counts; among equals the last entered.
-        priority: i32,
-    },
+    /// Glass or liquid: reflects and refracts.
+    Dielectric(Dielectric),
     /// Metal.
-    Conductor {
-        /// Its complex index.
-        metal: Metal,
-        /// GGX α is the square of this; 0 is smooth.
-        roughness: FloatDesc,
-    },
+    Conductor(Conductor),
     /// A diffuse base under a dielectric coat.
     Plastic {
         /// Albedo of the base.
         color: ColorDesc,
         /// Index of the coat.
         ior: Ior,
-        /// GGX α of the coat is the square of this; 0 is smooth.
+        /// Of the coat.
+        roughness: Roughness,
+    },
+    /// Energy-preserving Oren–Nayar.
+    RoughDiffuse {
+        /// Albedo, 0..=1.
+        color: ColorDesc,
+        /// 0..=1; 0 is Lambertian.
         roughness: FloatDesc,
     },
+    /// Lambertian reflection and transmission.
+    DiffuseTransmission {
+        /// Share reflected; its sum with `transmittance` is at most 1 in each channel.
+        reflectance: ColorDesc,
+        /// Share transmitted.
+        transmittance: ColorDesc,
+    },
+    /// Upright fibres over black.
+    Sheen {
+        /// Reflectance of the fibres.
+        color: ColorDesc,
+        /// α of the lobe is the square of this.
+        roughness: FloatDesc,
+    },
+    /// A thin pane: light crosses it straight on.
+    ThinDielectric(ThinDielectric),
+    /// A diffuse base under a dielectric coat, with all that it may have.
+    CoatedDiffuse(CoatedDiffuse),
+    /// A metal under a dielectric coat.
+    CoatedConductor(CoatedConductor),
+    /// The slab of Disney's BSDF and OpenPBR.
+    Principled(Box<Principled>),
 }
 
 /// A material: `[materials.NAME]`.
@@ -236,13 +407,82 @@ pub struct Material {
     pub normal_map: Option<Sourced<String>>,
     /// Factor on the map's slopes; 1 as stored.
     pub normal_strength: f32,
-    /// Whether the back side scatters as the front does; else the back is black. Dielectrics ignore it.
+    /// Whether the back side scatters as the front does; else the back is black. Ignored by what
+    /// light passes through.
     pub two_sided: bool,
 }
 
 impl From<MaterialKind> for Material {
     fn from(kind: MaterialKind) -> Self {
         Self { kind, normal_map: None, normal_strength: 1.0, two_sided: true }
+    }
+}
+
+impl From<Dielectric> for Material {
+    fn from(kind: Dielectric) -> Self {
+        MaterialKind::Dielectric(kind).into()
+    }
+}
+
+impl From<ThinDielectric> for Material {
+    fn from(kind: ThinDielectric) -> Self {
+        MaterialKind::ThinDielectric(kind).into()
+    }
+}
+
+impl From<Conductor> for Material {
+    fn from(kind: Conductor) -> Self {
+        MaterialKind::Conductor(kind).into()
+    }
+}
+
+impl From<CoatedDiffuse> for Material {
+    fn from(kind: CoatedDiffuse) -> Self {
+        MaterialKind::CoatedDiffuse(kind).into()
+    }
+}
+
+impl From<CoatedConductor> for Material {
+    fn from(kind: CoatedConductor) -> Self {
+        MaterialKind::CoatedConductor(kind).into()
+    }
+}
+
+impl From<Principled> for Material {
+    fn from(kind: Principled) -> Self {
+        MaterialKind::Principled(Box::new(kind)).into()
+    }
+}
+
+impl MaterialKind {
+    /// Its name in scene files.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Diffuse { .. } => "diffuse",
+            Self::Phong { .. } => "phong",
+            Self::Mirror { .. } => "mirror",
+            Self::Dielectric(_) => "dielectric",
+            Self::Conductor(_) => "conductor",
+            Self::Plastic { .. } => "plastic",
+            Self::RoughDiffuse { .. } => "rough-diffuse",
+            Self::DiffuseTransmission { .. } => "diffuse-transmission",
+            Self::Sheen { .. } => "sheen",
+            Self::ThinDielectric(_) => "thin-dielectric",
+            Self::CoatedDiffuse(_) => "coated-diffuse",
+            Self::CoatedConductor(_) => "coated-conductor",
+            Self::Principled(_) => "principled",
+        }
+    }
+
+    /// Whether its back may be black: nothing passes through it.
+    pub fn has_two_sided(&self) -> bool {
+        !matches!(
+            self,
+            Self::Dielectric(_)
+                | Self::ThinDielectric(_)
+                | Self::DiffuseTransmission { .. }
+                | Self::Principled(_)
+        )
     }
 }
 
@@ -265,12 +505,12 @@ impl Material {
 
     /// Clear glass of an index or name.
     pub fn dielectric(ior: impl Into<Ior>) -> Self {
-        MaterialKind::Dielectric { ior: ior.into(), color: 1.0.into(), priority: 0 }.into()
+        Dielectric { ior: ior.into(), ..Dielectric::default() }.into()
     }
 
     /// A metal by name.
     pub fn conductor(metal: impl Into<Metal>, roughness: f32) -> Self {
-        MaterialKind::Conductor { metal: metal.into(), roughness: roughness.into() }.into()
+        Conductor { metal: metal.into(), roughness: roughness.into(), ..Conductor::default() }.into()
     }
 
     /// A diffuse base under a coat of index 1.5.

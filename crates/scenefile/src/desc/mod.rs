@@ -13,12 +13,15 @@ use crate::source::Sourced;
 mod light;
 mod material;
 mod shape;
+mod texture;
 
 pub use light::{Emission, EmissionAmount, Light, LightKind, PointAmount, channel_power};
 pub use material::{
-    ColorDesc, ColorSpace, FloatDesc, Ior, Material, MaterialKind, Metal, Texture, TextureFilter, Wrap,
+    CoatedConductor, CoatedDiffuse, Conductor, Dielectric, Facets, Ior, Material, MaterialKind, Metal,
+    Principled, Roughness, ThinDielectric, ThinFilm,
 };
 pub use shape::{Normals, Shape, TEAPOT_PARTS, TeapotPart};
+pub use texture::{ColorDesc, ColorSpace, FloatDesc, Texture, TextureFilter, Wrap};
 
 /// A point, vector or colour.
 pub type Triple = [f32; 3];

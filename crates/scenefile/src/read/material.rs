@@ -1,58 +1,14 @@
-//! Textures and materials.
+//! Materials.
 
 use crate::desc::{
-    ColorSpace, FloatDesc, Material, MaterialKind, MaterialRef, Metal, Texture, TextureFilter, Wrap,
+    CoatedConductor, CoatedDiffuse, Conductor, Dielectric, Facets, Material, MaterialKind, MaterialRef,
+    Metal, Principled, Roughness, ThinDielectric, ThinFilm,
 };
 use crate::diagnostic::{Diagnostic, Report};
 use crate::document::{Node, Value};
 use crate::reader::{Reader, as_table};
 use crate::source::Sourced;
 use crate::spec;
-
-/// A texture, or a grey one after a mistake.
-pub(super) fn texture(report: &mut Report, what: String, node: &Node) -> Texture {
-    read_texture(report, what, node).unwrap_or_else(|| Texture::checker(0.5, 0.5, [1.0; 2]))
-}
-
-fn read_texture(report: &mut Report, what: String, node: &Node) -> Option<Texture> {
-    let table = as_table(report, &what, node)?;
-    let r = Reader::new(report, &spec::TEXTURES, what, table, node.span);
-    match r.variant()? {
-        "image" => {
-            let file = r.file(report, "file");
-            let color_space = r.word(report, "color_space").map(|word| match word {
-                "linear" => ColorSpace::Linear,
-                _ => ColorSpace::Srgb,
-            });
-            let wrap = r.word(report, "wrap").map(|word| match word {
-                "clamp" => Wrap::Clamp,
-                "mirror" => Wrap::Mirror,
-                _ => Wrap::Repeat,
-            });
-            let filter = r.word(report, "filter").map(|word| match word {
-                "bilinear" => TextureFilter::Bilinear,
-                "nearest" => TextureFilter::Nearest,
-                _ => TextureFilter::Trilinear,
-            });
-            let scale = r.pair(report, "scale");
-            let offset = r.pair(report, "offset");
-            Some(Texture::Image {
-                file: file?,
-                color_space: color_space?,
-                wrap: wrap?,
-                filter: filter?,
-                scale: scale?,
-                offset: offset?,
-            })
-        }
-        _ => {
-            let a = r.color_desc(report, "a");
-            let b = r.color_desc(report, "b");
-            let scale = r.pair(report, "scale");
-            Some(Texture::Checker { a: a?, b: b?, scale: scale? })
-        }
-    }
-}
 
 /// A material, or a grey one after a mistake.
 pub(super) fn material(report: &mut Report, what: String, node: &Node) -> Material {
@@ -64,38 +20,9 @@ fn read_material(report: &mut Report, what: String, node: &Node) -> Option<Mater
     let r = Reader::new(report, &spec::MATERIALS, what, table, node.span);
     let normal_map = r.optional_text(report, "normal_map");
     let normal_strength = r.number(report, "normal_strength");
-    let variant = r.variant()?;
-    let two_sided = if variant == "dielectric" { Some(true) } else { r.bool(report, "two_sided") };
-    let kind = match variant {
-        "diffuse" => r.color_desc(report, "color").map(|color| MaterialKind::Diffuse { color }),
-        "phong" => phong(report, &r),
-        "mirror" => r.color_desc(report, "color").map(|color| MaterialKind::Mirror { color }),
-        "dielectric" => {
-            let ior = r.ior(report, "ior");
-            let color = r.color_desc(report, "color");
-            let priority = r.integer(report, "priority");
-            ior.zip(color).zip(priority).map(|((ior, color), priority)| MaterialKind::Dielectric {
-                ior,
-                color,
-                priority,
-            })
-        }
-        "conductor" => {
-            let metal = metal(report, &r);
-            let roughness = roughness(report, &r);
-            metal.zip(roughness).map(|(metal, roughness)| MaterialKind::Conductor { metal, roughness })
-        }
-        _ => {
-            let color = r.color_desc(report, "color");
-            let ior = r.ior(report, "ior");
-            let roughness = roughness(report, &r);
-            color.zip(ior).zip(roughness).map(|((color, ior), roughness)| MaterialKind::Plastic {
-                color,
-                ior,
-                roughness,
-            })
-        }
-    };
+    let kind = kind(report, &r, r.variant()?);
+    let sided = r.has("two_sided");
+    let two_sided = if sided { r.bool(report, "two_sided") } else { Some(true) };
     Some(Material {
         kind: kind?,
         normal_map: normal_map?,
@@ -104,11 +31,181 @@ fn read_material(report: &mut Report, what: String, node: &Node) -> Option<Mater
     })
 }
 
-fn phong(report: &mut Report, r: &Reader<'_>) -> Option<MaterialKind> {
-    let diffuse = r.color_desc(report, "diffuse");
+fn kind(report: &mut Report, r: &Reader<'_>, variant: &str) -> Option<MaterialKind> {
+    match variant {
+        "diffuse" => r.color_desc(report, "color").map(|color| MaterialKind::Diffuse { color }),
+        "phong" => {
+            let diffuse = r.color_desc(report, "diffuse");
+            let specular = r.color_desc(report, "specular");
+            let exponent = r.float_desc(report, "exponent");
+            Some(MaterialKind::Phong { diffuse: diffuse?, specular: specular?, exponent: exponent? })
+        }
+        "mirror" => r.color_desc(report, "color").map(|color| MaterialKind::Mirror { color }),
+        "dielectric" => dielectric(report, r).map(MaterialKind::Dielectric),
+        "conductor" => conductor(report, r).map(MaterialKind::Conductor),
+        "plastic" => {
+            let color = r.color_desc(report, "color");
+            let ior = r.ior(report, "ior");
+            let roughness = roughness(report, r);
+            Some(MaterialKind::Plastic { color: color?, ior: ior?, roughness: roughness? })
+        }
+        "rough-diffuse" => {
+            let color = r.color_desc(report, "color");
+            let roughness = r.float_desc(report, "roughness");
+            Some(MaterialKind::RoughDiffuse { color: color?, roughness: roughness? })
+        }
+        "diffuse-transmission" => {
+            let reflectance = r.color_desc(report, "reflectance");
+            let transmittance = r.color_desc(report, "transmittance");
+            Some(MaterialKind::DiffuseTransmission {
+                reflectance: reflectance?,
+                transmittance: transmittance?,
+            })
+        }
+        "sheen" => {
+            let color = r.color_desc(report, "color");
+            let roughness = r.float_desc(report, "roughness");
+            Some(MaterialKind::Sheen { color: color?, roughness: roughness? })
+        }
+        "thin-dielectric" => {
+            let ior = r.ior(report, "ior");
+            let color = r.color_desc(report, "color");
+            let specular = r.color_desc(report, "specular");
+            let roughness = roughness(report, r);
+            Some(MaterialKind::ThinDielectric(ThinDielectric {
+                ior: ior?,
+                color: color?,
+                specular: specular?,
+                roughness: roughness?,
+            }))
+        }
+        "coated-diffuse" => coated_diffuse(report, r).map(MaterialKind::CoatedDiffuse),
+        "coated-conductor" => coated_conductor(report, r).map(MaterialKind::CoatedConductor),
+        _ => principled(report, r).map(|p| MaterialKind::Principled(Box::new(p))),
+    }
+}
+
+fn dielectric(report: &mut Report, r: &Reader<'_>) -> Option<Dielectric> {
+    let ior = r.ior(report, "ior");
+    let color = r.color_desc(report, "color");
     let specular = r.color_desc(report, "specular");
-    let exponent = r.float_desc(report, "exponent");
-    Some(MaterialKind::Phong { diffuse: diffuse?, specular: specular?, exponent: exponent? })
+    let roughness = roughness(report, r);
+    let facets = facets(report, r);
+    let film = film(report, r);
+    let priority = r.integer(report, "priority");
+    Some(Dielectric {
+        ior: ior?,
+        color: color?,
+        specular: specular?,
+        roughness: roughness?,
+        facets: facets?,
+        film: film?,
+        priority: priority?,
+    })
+}
+
+fn conductor(report: &mut Report, r: &Reader<'_>) -> Option<Conductor> {
+    let metal = metal(report, r);
+    let specular = r.color_desc(report, "specular");
+    let roughness = roughness(report, r);
+    let facets = facets(report, r);
+    let film = film(report, r);
+    Some(Conductor {
+        metal: metal?,
+        specular: specular?,
+        roughness: roughness?,
+        facets: facets?,
+        film: film?,
+    })
+}
+
+fn coated_diffuse(report: &mut Report, r: &Reader<'_>) -> Option<CoatedDiffuse> {
+    let color = r.color_desc(report, "color");
+    let specular = r.color_desc(report, "specular");
+    let ior = r.ior(report, "ior");
+    let roughness = roughness(report, r);
+    let facets = facets(report, r);
+    let nonlinear = r.bool(report, "nonlinear");
+    let depth = r.number(report, "depth");
+    Some(CoatedDiffuse {
+        color: color?,
+        specular: specular?,
+        ior: ior?,
+        roughness: roughness?,
+        facets: facets?,
+        nonlinear: nonlinear?,
+        depth: depth?,
+    })
+}
+
+fn coated_conductor(report: &mut Report, r: &Reader<'_>) -> Option<CoatedConductor> {
+    let metal = metal(report, r);
+    let roughness = roughness(report, r);
+    let ior = r.ior(report, "ior");
+    let coat_roughness = r.float_desc(report, "coat_roughness");
+    let depth = r.number(report, "depth");
+    let facets = facets(report, r);
+    Some(CoatedConductor {
+        metal: metal?,
+        roughness: roughness?,
+        ior: ior?,
+        coat_roughness: coat_roughness?,
+        depth: depth?,
+        facets: facets?,
+    })
+}
+
+fn principled(report: &mut Report, r: &Reader<'_>) -> Option<Principled> {
+    let base_color = r.color_desc(report, "base_color");
+    let metallic = r.float_desc(report, "metallic");
+    let roughness = roughness(report, r);
+    let ior = r.ior(report, "ior");
+    let specular = r.float_desc(report, "specular");
+    let specular_color = r.color_desc(report, "specular_color");
+    let transmission = r.float_desc(report, "transmission");
+    let thin = r.bool(report, "thin");
+    let diffuse_transmission = r.float_desc(report, "diffuse_transmission");
+    let sheen_color = r.color_desc(report, "sheen_color");
+    let sheen_roughness = r.float_desc(report, "sheen_roughness");
+    let clearcoat = r.float_desc(report, "clearcoat");
+    let clearcoat_roughness = r.float_desc(report, "clearcoat_roughness");
+    let film = r.float_desc(report, "film");
+    let film_thickness_nm = r.float_desc(report, "film_thickness");
+    let film_ior = r.number(report, "film_ior");
+    let priority = r.integer(report, "priority");
+    Some(Principled {
+        base_color: base_color?,
+        metallic: metallic?,
+        roughness: roughness?,
+        ior: ior?,
+        specular: specular?,
+        specular_color: specular_color?,
+        transmission: transmission?,
+        thin: thin?,
+        diffuse_transmission: diffuse_transmission?,
+        sheen_color: sheen_color?,
+        sheen_roughness: sheen_roughness?,
+        clearcoat: clearcoat?,
+        clearcoat_roughness: clearcoat_roughness?,
+        film: film?,
+        film_thickness_nm: film_thickness_nm?,
+        film_ior: film_ior?,
+        priority: priority?,
+    })
+}
+
+fn facets(report: &mut Report, r: &Reader<'_>) -> Option<Facets> {
+    r.word(report, "facets").map(|word| match word {
+        "single-bounce" => Facets::SingleBounce,
+        "beckmann" => Facets::Beckmann,
+        _ => Facets::Conserving,
+    })
+}
+
+fn film(report: &mut Report, r: &Reader<'_>) -> Option<ThinFilm> {
+    let thickness_nm = r.number(report, "film_thickness");
+    let ior = r.number(report, "film_ior");
+    Some(ThinFilm { thickness_nm: thickness_nm?, ior: ior? })
 }
 
 fn metal(report: &mut Report, r: &Reader<'_>) -> Option<Metal> {
@@ -138,16 +235,27 @@ fn metal(report: &mut Report, r: &Reader<'_>) -> Option<Metal> {
     }
 }
 
-fn roughness(report: &mut Report, r: &Reader<'_>) -> Option<FloatDesc> {
+/// Either `roughness` and `anisotropy`, or `alpha` and `alpha_across`.
+fn roughness(report: &mut Report, r: &Reader<'_>) -> Option<Roughness> {
     let roughness = r.float_desc(report, "roughness");
-    let alpha = r.optional_number(report, "alpha");
-    if let (Some(a), Some(b)) = (r.given("roughness"), r.given("alpha")) {
+    let anisotropy = r.float_desc(report, "anisotropy");
+    let along = r.optional_float_desc(report, "alpha");
+    let across = r.optional_float_desc(report, "alpha_across");
+    let perceived = r.given("roughness").or(r.given("anisotropy"));
+    if let (Some(a), Some(b)) = (perceived, r.given("alpha").or(r.given("alpha_across"))) {
         r.conflict(report, a, b);
         return None;
     }
-    match alpha? {
-        Some(alpha) => Some(FloatDesc::Value((alpha as f64).sqrt() as f32)),
-        None => roughness,
+    if let (None, Some(entry)) = (r.given("alpha"), r.given("alpha_across")) {
+        let message = format!("`alpha_across` without `alpha` in {}", r.what);
+        report.push(Diagnostic::error("conflict", message).at(entry.key_span));
+        return None;
+    }
+    match (along?, across?) {
+        (Some(along), across) => {
+            Some(Roughness::Alpha { across: across.unwrap_or_else(|| along.clone()), along })
+        }
+        (None, _) => Some(Roughness::Perceived { roughness: roughness?, anisotropy: anisotropy? }),
     }
 }
 

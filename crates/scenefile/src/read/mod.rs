@@ -5,6 +5,7 @@ mod light;
 mod material;
 mod object;
 mod settings;
+mod texture;
 
 use crate::desc::{Group, SceneDesc};
 use crate::diagnostic::{Diagnostic, Report, quoted};
@@ -33,7 +34,7 @@ pub(crate) fn scene(report: &mut Report, root: &Table) -> SceneDesc {
             "sppm" => with_table(report, &spec::SPPM, node, |report, r| settings::sppm(report, r, &mut desc)),
             "vcm" => with_table(report, &spec::VCM, node, |report, r| settings::vcm(report, r, &mut desc)),
             "textures" => each_named(report, &spec::TEXTURES, node, |report, entry, what| {
-                let texture = material::texture(report, what, &entry.node);
+                let texture = texture::texture(report, what, &entry.node);
                 desc.textures.insert(entry.key.clone(), Sourced::at(texture, name_span(entry)));
             }),
             "materials" => each_named(report, &spec::MATERIALS, node, |report, entry, what| {

@@ -1,17 +1,17 @@
 //! A description as TOML that a person can go on with: tables in the order of the reference, defaults left out.
 
+mod material;
 mod value;
 
 use std::fmt::Write as _;
 
-use crate::desc::ColorSpace;
 use crate::desc::{
     Camera, CameraKind, DirectLight, Emission, EmissionAmount, FilterKind, FovAxis, Instance, Light,
-    LightKind, Material, MaterialKind, MaterialRef, Metal, Normals, Object, PhotonFilter, PointAmount,
-    SceneDesc, Shape, TEAPOT_PARTS, TeapotPart, Texture, TextureFilter, TransformStep, VcmTechniques, View,
-    Wrap,
+    LightKind, MaterialRef, Normals, Object, PhotonFilter, PointAmount, SceneDesc, Shape, TEAPOT_PARTS,
+    TeapotPart, TransformStep, VcmTechniques, View,
 };
 use crate::spec::{self, Section};
+use material::{material_fields, texture_fields};
 use value::{Fields, number, quote, triple};
 
 /// The text of a description: [`parse`](crate::parse) of it gives an equal description, if the base folder is the same
@@ -197,96 +197,6 @@ fn vcm(desc: &SceneDesc) -> Fields {
     f.optional_number("radius", vcm.radius);
     f.number("radius_pixels", vcm.radius_pixels);
     f.number("alpha", vcm.alpha);
-    f
-}
-
-fn texture_fields(texture: &Texture) -> Fields {
-    match texture {
-        Texture::Image { file, color_space, wrap, filter, scale, offset } => {
-            let mut f = fields(&spec::TEXTURES, Some("image"));
-            f.text("file", &file.to_string_lossy());
-            f.word(
-                "color_space",
-                match color_space {
-                    ColorSpace::Srgb => "srgb",
-                    ColorSpace::Linear => "linear",
-                },
-            );
-            f.word(
-                "wrap",
-                match wrap {
-                    Wrap::Repeat => "repeat",
-                    Wrap::Clamp => "clamp",
-                    Wrap::Mirror => "mirror",
-                },
-            );
-            f.word(
-                "filter",
-                match filter {
-                    TextureFilter::Trilinear => "trilinear",
-                    TextureFilter::Bilinear => "bilinear",
-                    TextureFilter::Nearest => "nearest",
-                },
-            );
-            f.factor_pair("scale", *scale);
-            f.pair("offset", offset.map(number));
-            f
-        }
-        Texture::Checker { a, b, scale } => {
-            let mut f = fields(&spec::TEXTURES, Some("checker"));
-            f.color("a", a);
-            f.color("b", b);
-            f.factor_pair("scale", *scale);
-            f
-        }
-    }
-}
-
-fn material_fields(material: &Material) -> Fields {
-    let kind = match &material.kind {
-        MaterialKind::Diffuse { .. } => "diffuse",
-        MaterialKind::Phong { .. } => "phong",
-        MaterialKind::Mirror { .. } => "mirror",
-        MaterialKind::Dielectric { .. } => "dielectric",
-        MaterialKind::Conductor { .. } => "conductor",
-        MaterialKind::Plastic { .. } => "plastic",
-    };
-    let mut f = fields(&spec::MATERIALS, Some(kind));
-    match &material.kind {
-        MaterialKind::Diffuse { color } | MaterialKind::Mirror { color } => f.color("color", color),
-        MaterialKind::Phong { diffuse, specular, exponent } => {
-            f.color("diffuse", diffuse);
-            f.color("specular", specular);
-            f.float("exponent", exponent);
-        }
-        MaterialKind::Dielectric { ior, color, priority } => {
-            f.ior("ior", ior);
-            f.color("color", color);
-            f.integer("priority", *priority);
-        }
-        MaterialKind::Conductor { metal, roughness } => {
-            match metal {
-                Metal::Named(name) => f.text("metal", name),
-                Metal::Index { n, k } => {
-                    f.triple("n", *n);
-                    f.triple("k", *k);
-                }
-            }
-            f.float("roughness", roughness);
-        }
-        MaterialKind::Plastic { color, ior, roughness } => {
-            f.color("color", color);
-            f.ior("ior", ior);
-            f.float("roughness", roughness);
-        }
-    }
-    if let Some(name) = &material.normal_map {
-        f.text("normal_map", name);
-    }
-    f.number("normal_strength", material.normal_strength);
-    if kind != "dielectric" {
-        f.bool("two_sided", material.two_sided);
-    }
     f
 }
 

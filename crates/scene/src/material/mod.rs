@@ -1,0 +1,127 @@
+//! Materials: what a surface is made of, from which the BSDF at a point is made.
+
+mod kind;
+mod source;
+mod varied;
+
+use bsdf::{Bsdf, BsdfKind};
+use math::{Frame, Vec3};
+
+use crate::{Medium, SurfaceInteraction};
+
+pub use kind::MaterialKind;
+pub(crate) use source::Lookup;
+pub use source::{ColorSource, FloatSource, RoughnessSource};
+pub use varied::{
+    CoatedConductorMaterial, CoatedDiffuseMaterial, ConductorMaterial, DielectricMaterial, PrincipledMaterial,
+};
+
+/// Cosine to which a shading normal is bent back where it faces away from a viewer who sees the surface's other side.
+const BENT_COSINE: f32 = 0.01;
+
+/// The shading normal, unless `wo` lies between its horizon and the geometric normal's, as at the silhouette of a
+/// smooth mesh: then it is tilted toward `wo` until both agree on the side, where otherwise nothing would be
+/// scattered.
+#[inline]
+fn facing(ns: Vec3, ng: Vec3, wo: Vec3) -> Vec3 {
+    let (cos, side) = (wo.dot(ns), wo.dot(ng));
+    if cos * side > 0.0 || side == 0.0 {
+        return ns;
+    }
+    (ns + wo * (BENT_COSINE.copysign(side) - cos)).normalize()
+}
+
+/// The shading frame whose x is the tangent.
+#[inline(never)]
+fn along_tangent(ns: Vec3, dpdu: Vec3) -> Frame {
+    Frame::from_zx(ns, dpdu)
+}
+
+/// Index of a material in the scene.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct MaterialId(pub u32);
+
+/// A material: its kind and what bends its normals.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// How it scatters.
+    pub kind: MaterialKind,
+    /// Tangent-space normal map (texture index) and its strength.
+    pub normal_map: Option<(u32, f32)>,
+    /// Whether the back scatters as the front does; else it is black.
+    pub two_sided: bool,
+    /// Whether it tells the direction of growing u from others.
+    oriented: bool,
+    /// The BSDF kind where nothing varies over the surface (and the kind is not a dielectric, whose index depends
+    /// on the medium).
+    constant: Option<BsdfKind>,
+}
+
+impl Material {
+    /// A material; works out what is constant.
+    pub fn new(kind: MaterialKind, normal_map: Option<(u32, f32)>, two_sided: bool) -> Self {
+        let two_sided = two_sided || kind.is_crossed();
+        let oriented = kind.is_anisotropic();
+        let mut material = Self { kind, normal_map, two_sided, oriented, constant: None };
+        if material.kind.is_uniform() && material.medium(MaterialId(0)).is_none() {
+            material.constant =
+                Some(material.kind.bsdf(None, 1.0, &Lookup { textures: &[], footprint: 0.0 }));
+        }
+        material
+    }
+
+    /// The solid that this material bounds, if light enters it.
+    #[inline]
+    pub fn medium(&self, id: MaterialId) -> Option<Medium> {
+        match &self.kind {
+            MaterialKind::Dielectric(d) => Some(Medium { material: id, ior: d.ior, priority: d.priority }),
+            MaterialKind::Principled(p) if p.is_solid => {
+                Some(Medium { material: id, ior: p.ior, priority: p.priority })
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether texture coordinates are of no use to it.
+    pub fn needs_no_uv(&self) -> bool {
+        self.kind.is_uniform() && self.normal_map.is_none() && !self.oriented
+    }
+
+    /// The BSDF at `hit`; `eta` is the resolved relative index where the material is a dielectric.
+    #[inline]
+    pub(crate) fn bsdf(&self, hit: &SurfaceInteraction, wo: Vec3, eta: f32, lookup: &Lookup<'_>) -> Bsdf {
+        let kind = match self.constant {
+            _ if !self.two_sided && wo.dot(hit.ng) < 0.0 => BsdfKind::Black,
+            Some(kind) => kind,
+            None => self.kind.bsdf(Some(&{ *hit }), eta, lookup),
+        };
+        let ns = match self.normal_map {
+            None => hit.ns,
+            Some((texture, strength)) => self.bent_normal(&{ *hit }, texture, strength, lookup),
+        };
+        let ns = facing(ns, hit.ng, wo);
+        let frame = if self.oriented { along_tangent(ns, hit.dpdu) } else { Frame::from_z(ns) };
+        Bsdf::new(kind, frame, hit.ng)
+    }
+
+    #[inline(never)]
+    fn bent_normal(
+        &self,
+        hit: &SurfaceInteraction,
+        texture: u32,
+        strength: f32,
+        lookup: &Lookup<'_>,
+    ) -> Vec3 {
+        let base = Frame::from_zx(hit.ns, hit.dpdu);
+        let local =
+            lookup.textures[texture as usize].evaluate_normal(hit.uv, lookup.footprint * hit.uv_per_length);
+        let bent = Vec3::new(local.x * strength, local.y * strength, local.z.max(1e-3));
+        let mut ns = base.to_world(bent).normalize();
+        // A normal that turned past the geometric horizon is brought back to it.
+        let c = ns.dot(hit.ng);
+        if c < 0.01 {
+            ns = (ns + hit.ng * (0.01 - c)).normalize();
+        }
+        ns
+    }
+}

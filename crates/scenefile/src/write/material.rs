@@ -1,0 +1,188 @@
+//! Textures and materials.
+
+use super::value::{Fields, number};
+use crate::desc::{
+    ColorSpace, Facets, Material, MaterialKind, Metal, Principled, Roughness, Texture, TextureFilter,
+    ThinFilm, Wrap,
+};
+use crate::spec;
+
+pub(super) fn texture_fields(texture: &Texture) -> Fields {
+    match texture {
+        Texture::Image { file, color_space, wrap, filter, scale, offset } => {
+            let mut f = Fields::new(&spec::TEXTURES, Some("image"));
+            f.text("file", &file.to_string_lossy());
+            f.word(
+                "color_space",
+                match color_space {
+                    ColorSpace::Srgb => "srgb",
+                    ColorSpace::Linear => "linear",
+                },
+            );
+            f.word(
+                "wrap",
+                match wrap {
+                    Wrap::Repeat => "repeat",
+                    Wrap::Clamp => "clamp",
+                    Wrap::Mirror => "mirror",
+                },
+            );
+            f.word(
+                "filter",
+                match filter {
+                    TextureFilter::Trilinear => "trilinear",
+                    TextureFilter::Bilinear => "bilinear",
+                    TextureFilter::Nearest => "nearest",
+                },
+            );
+            f.factor_pair("scale", *scale);
+            f.pair("offset", offset.map(number));
+            f
+        }
+        Texture::Checker { a, b, scale } => {
+            let mut f = Fields::new(&spec::TEXTURES, Some("checker"));
+            f.color("a", a);
+            f.color("b", b);
+            f.factor_pair("scale", *scale);
+            f
+        }
+    }
+}
+
+pub(super) fn material_fields(material: &Material) -> Fields {
+    let mut f = Fields::new(&spec::MATERIALS, Some(material.kind.name()));
+    kind_fields(&mut f, &material.kind);
+    if let Some(name) = &material.normal_map {
+        f.text("normal_map", name);
+    }
+    f.number("normal_strength", material.normal_strength);
+    if material.kind.has_two_sided() {
+        f.bool("two_sided", material.two_sided);
+    }
+    f
+}
+
+fn kind_fields(f: &mut Fields, kind: &MaterialKind) {
+    match kind {
+        MaterialKind::Diffuse { color } | MaterialKind::Mirror { color } => f.color("color", color),
+        MaterialKind::Phong { diffuse, specular, exponent } => {
+            f.color("diffuse", diffuse);
+            f.color("specular", specular);
+            f.float("exponent", exponent);
+        }
+        MaterialKind::Dielectric(m) => {
+            f.ior("ior", &m.ior);
+            f.color("color", &m.color);
+            f.color("specular", &m.specular);
+            roughness(f, &m.roughness);
+            facets(f, m.facets);
+            film(f, &m.film);
+            f.integer("priority", m.priority);
+        }
+        MaterialKind::Conductor(m) => {
+            metal(f, &m.metal);
+            f.color("specular", &m.specular);
+            roughness(f, &m.roughness);
+            facets(f, m.facets);
+            film(f, &m.film);
+        }
+        MaterialKind::Plastic { color, ior, roughness: r } => {
+            f.color("color", color);
+            f.ior("ior", ior);
+            roughness(f, r);
+        }
+        MaterialKind::RoughDiffuse { color, roughness } | MaterialKind::Sheen { color, roughness } => {
+            f.color("color", color);
+            f.float("roughness", roughness);
+        }
+        MaterialKind::DiffuseTransmission { reflectance, transmittance } => {
+            f.color("reflectance", reflectance);
+            f.color("transmittance", transmittance);
+        }
+        MaterialKind::ThinDielectric(m) => {
+            f.ior("ior", &m.ior);
+            f.color("color", &m.color);
+            f.color("specular", &m.specular);
+            roughness(f, &m.roughness);
+        }
+        MaterialKind::CoatedDiffuse(m) => {
+            f.color("color", &m.color);
+            f.color("specular", &m.specular);
+            f.ior("ior", &m.ior);
+            roughness(f, &m.roughness);
+            facets(f, m.facets);
+            f.bool("nonlinear", m.nonlinear);
+            f.number("depth", m.depth);
+        }
+        MaterialKind::CoatedConductor(m) => {
+            metal(f, &m.metal);
+            roughness(f, &m.roughness);
+            f.ior("ior", &m.ior);
+            f.float("coat_roughness", &m.coat_roughness);
+            f.number("depth", m.depth);
+            facets(f, m.facets);
+        }
+        MaterialKind::Principled(m) => principled(f, m),
+    }
+}
+
+fn principled(f: &mut Fields, m: &Principled) {
+    f.color("base_color", &m.base_color);
+    f.float("metallic", &m.metallic);
+    roughness(f, &m.roughness);
+    f.ior("ior", &m.ior);
+    f.float("specular", &m.specular);
+    f.color("specular_color", &m.specular_color);
+    f.float("transmission", &m.transmission);
+    f.bool("thin", m.thin);
+    f.float("diffuse_transmission", &m.diffuse_transmission);
+    f.color("sheen_color", &m.sheen_color);
+    f.float("sheen_roughness", &m.sheen_roughness);
+    f.float("clearcoat", &m.clearcoat);
+    f.float("clearcoat_roughness", &m.clearcoat_roughness);
+    f.float("film", &m.film);
+    f.float("film_thickness", &m.film_thickness_nm);
+    f.number("film_ior", m.film_ior);
+    f.integer("priority", m.priority);
+}
+
+fn metal(f: &mut Fields, metal: &Metal) {
+    match metal {
+        Metal::Named(name) => f.text("metal", name),
+        Metal::Index { n, k } => {
+            f.triple("n", *n);
+            f.triple("k", *k);
+        }
+    }
+}
+
+fn roughness(f: &mut Fields, roughness: &Roughness) {
+    match roughness {
+        Roughness::Perceived { roughness, anisotropy } => {
+            f.float("roughness", roughness);
+            f.float("anisotropy", anisotropy);
+        }
+        Roughness::Alpha { along, across } => {
+            f.float("alpha", along);
+            if across != along {
+                f.float("alpha_across", across);
+            }
+        }
+    }
+}
+
+fn facets(f: &mut Fields, facets: Facets) {
+    f.word(
+        "facets",
+        match facets {
+            Facets::Conserving => "conserving",
+            Facets::SingleBounce => "single-bounce",
+            Facets::Beckmann => "beckmann",
+        },
+    );
+}
+
+fn film(f: &mut Fields, film: &ThinFilm) {
+    f.number("film_thickness", film.thickness_nm);
+    f.number("film_ior", film.ior);
+}
