@@ -6,7 +6,7 @@
 //!
 //! What happens in a session is told as [`Event`]s, whose observer may stop it; it goes on where it stopped. A session may
 //! have a time limit and a checkpoint file; [`resume`] makes a session of such a file, and [`merge`] adds up several that
-//! hold different passes.
+//! hold different passes. [`replay`] traces one path of a render again and writes it down.
 //!
 //! The film depends on description and seed alone: any number of threads, and any split into sessions, gives the same
 //! bytes.
