@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use nephroid_benches::table::{BARS, Row, Rows, json, table};
-use nephroid_benches::{paths, rays, report, search};
+use nephroid_benches::{checkpoint, memory, pairs, paths, rays, report, search, threads};
 
 const USAGE: &str = "usage: cargo xtask bench [--quick] [--only PREFIX] [--json FILE]
   --quick        smaller inputs, fewer rounds: whether all runs, not how fast
@@ -24,7 +24,12 @@ const GROUPS: &[Group] = &[
         })
     }),
     (&["paths."], paths::run),
-    (&["report.", "threads.path", "threads.photon_map"], report::run),
+    (&["report."], |_, quick| report::run(quick)),
+    (&["threads.path", "threads.photon_map", "threads.sppm", "threads.vcm", "threads.auto"], threads::run),
+    (&["pairs."], pairs::pairs),
+    (&["auto."], pairs::default_cost),
+    (&["memory."], memory::run),
+    (&["checkpoint."], |_, quick| checkpoint::run(quick)),
 ];
 
 /// Measurements whose figures stand in what they print.
@@ -65,7 +70,11 @@ fn wanted(starts: &[&str], only: &str) -> bool {
 }
 
 fn run() -> Result<(), String> {
-    let arguments = parse(std::env::args().skip(1))?;
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    if let Some((memory::PROBE, probed)) = words.split_first().map(|(first, rest)| (first.as_str(), rest)) {
+        return memory::be_probed(probed);
+    }
+    let arguments = parse(words.into_iter())?;
     let only = arguments.only.as_str();
     let groups: Vec<&Group> = GROUPS.iter().filter(|(starts, _)| wanted(starts, only)).collect();
     if groups.is_empty() {
@@ -122,10 +131,11 @@ mod tests {
     fn prefixes_choose_groups() {
         let chosen =
             |only: &str| -> Vec<usize> { (0..GROUPS.len()).filter(|&i| wanted(GROUPS[i].0, only)).collect() };
-        assert_eq!(chosen(""), [0, 1, 2, 3]);
+        assert_eq!(chosen(""), [0, 1, 2, 3, 4, 5, 6, 7, 8]);
         assert_eq!(chosen("search"), [0]);
         assert_eq!(chosen("rays.room.camera"), [1]);
-        assert_eq!(chosen("threads"), [0, 3]);
+        assert_eq!(chosen("threads"), [0, 4]);
+        assert_eq!(chosen("pairs.vcm"), [5]);
         assert_eq!(chosen("nothing"), Vec::<usize>::new());
     }
 

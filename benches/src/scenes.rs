@@ -36,6 +36,18 @@ impl Ready {
         Session::new(Job { passes, ..job }, threads).map_err(|e| e.to_string())
     }
 
+    /// Camera paths of a pass.
+    pub(crate) fn pixels(&self) -> f64 {
+        let [width, height] = self.scene.resolution().map(f64::from);
+        width * height
+    }
+
+    /// Photon paths that `auto` traces each pass.
+    pub(crate) fn photon_paths(&self) -> Result<u64, String> {
+        let settings = nephroid::settings(&self.desc).map_err(|e| e.to_string())?;
+        Ok(integrators::Auto::new(settings, &self.scene).photon_paths())
+    }
+
     /// Medians of `rounds` in turn, on one thread and on two.
     pub(crate) fn one_and_two(&self, passes: u64, rounds: usize) -> Result<[Spell; 2], String> {
         let mut times = [(Vec::new(), Vec::new()), (Vec::new(), Vec::new())];

@@ -18,6 +18,12 @@ pub const BARS: &[(&str, f64)] = &[
     ("paths.box.vs_mitsuba_llvm", 1.5),
     ("threads.path", 1.85),
     ("threads.photon_map", 1.85),
+    ("threads.sppm", 1.85),
+    ("threads.vcm", 1.85),
+    ("threads.auto", 1.85),
+    ("pairs.sppm", 0.5),
+    ("pairs.vcm", 0.2),
+    ("memory.vcm.vs_64_bytes", 1.0),
 ];
 
 /// The bar of a name.
@@ -30,7 +36,7 @@ pub fn bar(name: &str) -> Option<f64> {
 pub struct Row {
     /// Dotted name, group first.
     pub name: String,
-    /// > 1: we are faster. Of names that end in `.lost`: how many rays were lost.
+    /// > 1: we are faster. Of names that end in `.lost`: how many rays were lost; of `pairs.*`: millions a second.
     pub ratio: f64,
     /// Our figure, the peer's, and their unit.
     pub figures: Option<(f64, f64, &'static str)>,

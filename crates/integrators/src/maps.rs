@@ -55,7 +55,7 @@ pub struct MapReport {
     pub name: &'static str,
     /// Photons stored.
     pub photons: usize,
-    /// Bytes, index included.
+    /// Bytes, index and what weights need of each photon included.
     pub bytes: usize,
     /// Median radius of lookups, in scene units.
     pub typical_radius: f32,
@@ -64,18 +64,18 @@ pub struct MapReport {
 impl Maps {
     /// One report a map.
     pub fn reports(&self) -> Vec<MapReport> {
-        let report = |name, stored: &Option<StoredMap>| {
+        let report = |name, stored: &Option<StoredMap>, beside: usize| {
             stored.as_ref().map(|s| MapReport {
                 name,
                 photons: s.map.len(),
-                bytes: s.map.memory_bytes(),
+                bytes: s.map.memory_bytes() + beside,
                 typical_radius: s.typical_radius,
             })
         };
         let all = [
-            report("global", &self.global),
-            report("caustic", &self.caustic),
-            report("photon", &self.merging),
+            report("global", &self.global, 0),
+            report("caustic", &self.caustic, size_of_val(&self.rivals[..])),
+            report("photon", &self.merging, size_of_val(&self.light_side.paths[..])),
         ];
         all.into_iter().flatten().collect()
     }
