@@ -27,10 +27,11 @@ pub fn run(quick: bool) -> Result<(), String> {
     let (elapsed, (ready, session)) = (start.elapsed(), done?);
     let [width, height] = ready.scene.resolution();
     println!(
-        "report: {HEAVY}, {width}x{height}, {} passes: {:.2} s by the wall clock on all cores, \
+        "report: {HEAVY}, {width}x{height}, {} passes: {:.2} s by the wall clock on {} threads, \
          {processor:.2} s of processor time",
         session.done(),
         elapsed.as_secs_f64(),
+        session.threads(),
     );
     let mut rest = elapsed;
     for phase in [Phase::Photons, Phase::MapBuild, Phase::EyePasses] {
