@@ -110,6 +110,11 @@ pub struct RenderArgs {
     #[arg(long, value_name = "A..B", conflicts_with = "passes", value_parser = parse_range)]
     pub pass_range: Option<Range<u64>>,
 
+    /// More layers for .exr pictures, which add up to the picture: one for each technique that finds light, or one for
+    /// each group of lights (light_group in scene files); both as techniques,lights [default: the scene's, or none].
+    #[arg(long, value_name = "LAYERS", value_delimiter = ',')]
+    pub layers: Vec<Layers>,
+
     /// Save the render to this file every minute, when it is interrupted, and at the end; `nephroid resume` goes on
     /// with it. It must not exist.
     #[arg(long, value_name = "FILE.neph")]
@@ -220,6 +225,15 @@ pub struct ReplayArgs {
     /// Print JSON, one object a path.
     #[arg(long)]
     pub json: bool,
+}
+
+/// Layers on request, as in scene files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Layers {
+    /// One for each technique that finds light.
+    Techniques,
+    /// One for each group of lights.
+    Lights,
 }
 
 /// Photons, as warnings name them.

@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 
 use nephroid::{
     CheckpointFile, CheckpointInfo, Job, Output, PictureError, PictureInfo, Session, SessionError,
-    check_outputs, overwritten_inputs, scene_hash,
+    check_outputs, desc, overwritten_inputs, scene_hash,
 };
 
-use crate::args::RenderArgs;
+use crate::args::{Layers, RenderArgs};
 use crate::checkpoint;
 use crate::drive::{absolute, drive};
 use crate::failure::{Failure, Outcome};
@@ -25,6 +25,11 @@ pub fn run(args: &RenderArgs) -> Outcome {
         None
     });
     let mut described = describe(&args.scene, messages)?;
+    if !args.layers.is_empty() {
+        let has = |layers| args.layers.contains(&layers);
+        described.desc.film.layers =
+            desc::Layers { techniques: has(Layers::Techniques), lights: has(Layers::Lights) };
+    }
     let replaced = overwritten_inputs(&outputs, &described.desc);
     if !replaced.is_empty() {
         return Err(Failure::Usage(replaced.iter().map(refusal).collect()));

@@ -5,6 +5,7 @@ mod auto;
 mod caustics;
 mod eye;
 mod irradiance;
+mod layers;
 mod maps;
 mod path;
 mod photon_map;
@@ -22,6 +23,7 @@ use film::{FilmError, PassFilm};
 use scene::Scene;
 
 pub use auto::Auto;
+pub use layers::layer_names;
 pub use maps::{MapReport, Maps, TracedPhotons};
 pub use path::Path;
 pub use photon_map::PhotonMapper;
@@ -29,7 +31,8 @@ pub use photons::Kernel;
 pub use radius::{RadiusSettings, StartRadius};
 pub use replay::{NonFinitePhoton, PathEvent, PathRecord, PhotonKind, VertexRecord};
 pub use settings::{
-    DirectLight, IntegratorKind, PhotonMapSettings, Settings, SppmSettings, VcmSettings, VcmTechniques,
+    DirectLight, IntegratorKind, LayerSettings, PhotonMapSettings, Settings, SppmSettings, VcmSettings,
+    VcmTechniques,
 };
 pub use sink::Technique;
 pub use sppm::Sppm;
@@ -51,7 +54,8 @@ pub trait Integrator: Send + Sync {
     /// Second step: builds the maps.
     fn build_maps(&self, scene: &Scene, photons: TracedPhotons) -> Maps;
 
-    /// One pass: one camera sample a pixel. `maps`: those of `map_index(pass)`.
+    /// One pass: one camera sample a pixel, with the layers that [`layer_names`] says. `maps`: those of
+    /// `map_index(pass)`.
     ///
     /// # Errors
     /// As [`PassFilm::new`]: where the film is too large to be addressed.

@@ -9,6 +9,7 @@ use scene::Scene;
 use transport::Walk;
 
 use crate::Settings;
+use crate::layers::{Layers, Slots, trace_layers};
 use crate::sink::Sink;
 
 /// Rows that are handed to a thread at once, and columns of them that are gone through together, so that neighbouring
@@ -38,17 +39,32 @@ pub(crate) fn render_pixels(
     pass: u64,
     tracer: &impl Tracer,
 ) -> Result<PassFilm, FilmError> {
-    let [width, height] = scene.resolution().map(|n| n as usize);
-    PassFilm::new(width, height, trace_pixels(scene, settings, pass, tracer))
+    trace_pixels(scene, settings, pass, tracer).finish(scene)
+}
+
+/// What a pass gave.
+pub(crate) struct Traced {
+    pub samples: Vec<PixelSample>,
+    /// Where layers are asked for.
+    pub layers: Option<Layers>,
+}
+
+impl Traced {
+    pub fn finish(self, scene: &Scene) -> Result<PassFilm, FilmError> {
+        let [width, height] = scene.resolution().map(|n| n as usize);
+        let film = PassFilm::new(width, height, self.samples)?;
+        match self.layers {
+            Some(layers) => film.with_layers(layers.values),
+            None => Ok(film),
+        }
+    }
 }
 
 /// The samples of one pass, row by row.
-pub(crate) fn trace_pixels(
-    scene: &Scene,
-    settings: &Settings,
-    pass: u64,
-    tracer: &impl Tracer,
-) -> Vec<PixelSample> {
+pub(crate) fn trace_pixels(scene: &Scene, settings: &Settings, pass: u64, tracer: &impl Tracer) -> Traced {
+    if let Some(slots) = Slots::new(settings, scene) {
+        return trace_layers(scene, settings, pass, tracer, slots);
+    }
     let [width, height] = scene.resolution().map(|n| n as usize);
     let streams = Streams::new(settings.seed, pass, Domain::Camera);
     let mut samples = vec![PixelSample::default(); width * height];
@@ -63,7 +79,7 @@ pub(crate) fn trace_pixels(
             }
         }
     });
-    samples
+    Traced { samples, layers: None }
 }
 
 /// The eye path of a pass through a pixel.

@@ -29,12 +29,23 @@ pub struct Settings {
     pub max_depth: u32,
     /// Pixel filter.
     pub filter: Filter,
+    /// Layers on request.
+    pub layers: LayerSettings,
     /// Two-pass photon mapping.
     pub photon_map: PhotonMapSettings,
     /// Stochastic progressive photon mapping.
     pub sppm: SppmSettings,
     /// Vertex connection and merging.
     pub vcm: VcmSettings,
+}
+
+/// Layers that a film has on request.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LayerSettings {
+    /// One for each technique that the integrator has.
+    pub techniques: bool,
+    /// One for each group of lights.
+    pub lights: bool,
 }
 
 /// Where a progressive estimate gets its light straight from the lights.

@@ -112,9 +112,13 @@ impl Integrator for Vcm {
         let maps = maps.unwrap_or(&none);
         let [width, height] = scene.resolution().map(|n| n as usize);
         let eye = eye::Eye::new(self.plan(scene, pass), maps, self.settings.seed, pass);
-        let mut samples = trace_pixels(scene, &self.settings, pass, &eye);
-        splat::add(&maps.light_side.splats, &self.settings.filter, [width, height], &mut samples);
-        PassFilm::new(width, height, samples)
+        let mut traced = trace_pixels(scene, &self.settings, pass, &eye);
+        let (splats, filter) = (&maps.light_side.splats, &self.settings.filter);
+        splat::add(splats, filter, [width, height], &mut traced.samples);
+        if let Some(layers) = &mut traced.layers {
+            splat::add_to_layers(splats, filter, [width, height], &traced.samples, layers, scene);
+        }
+        traced.finish(scene)
     }
 
     fn replay_pixel(&self, scene: &Scene, maps: Option<&Maps>, pass: u64, pixel: [usize; 2]) -> PathRecord {

@@ -42,8 +42,8 @@ pub use film::{
     difference, discard_unfinished, encode_png_bytes, write_atomically,
 };
 pub use integrators::{
-    IntegratorKind, MapReport, PathEnd, PathEvent, PathRecord, PhotonKind, PhotonMapSettings, Settings,
-    Technique, VertexRecord,
+    IntegratorKind, LayerSettings, MapReport, PathEnd, PathEvent, PathRecord, PhotonKind, PhotonMapSettings,
+    Settings, Technique, VertexRecord,
 };
 pub use math::Vec3;
 pub use scene::{Light, LightId, Scene};

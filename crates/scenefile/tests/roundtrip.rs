@@ -317,6 +317,7 @@ impl Dice {
             _ => Some(EmissionAmount::Power { watts: self.unit() + 0.5, color }),
         };
         let material = if emission.is_none() || self.coin() { Some(self.material_ref()) } else { None };
+        let light_group = if emission.is_some() { self.name() } else { None };
         Object {
             name: self.name(),
             shape: self.shape().into(),
@@ -324,6 +325,7 @@ impl Dice {
             transform: self.steps(),
             flip_normals: self.coin(),
             emission: emission.map(|amount| Emission { amount, two_sided: self.coin() }.into()),
+            light_group,
         }
         .into()
     }
@@ -346,7 +348,7 @@ impl Dice {
             2 => LightKind::Directional { direction: self.direction(), irradiance: self.amount() },
             _ => LightKind::Environment { radiance: self.amount() },
         };
-        Light { name: self.name(), kind }.into()
+        Light { name: self.name(), light_group: self.name(), kind }.into()
     }
 
     fn texture(&mut self) -> Texture {
@@ -401,6 +403,7 @@ impl Dice {
                 filter_radius: self.coin().then(|| self.unit() + 0.25),
                 exposure: self.modest(),
                 view: if self.coin() { View::Agx } else { View::Srgb },
+                layers: Layers { techniques: self.coin(), lights: self.coin() },
             };
             desc.photon_map = PhotonMap {
                 photons: self.below(1_000_000_001),

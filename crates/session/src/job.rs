@@ -93,6 +93,11 @@ pub fn film_bytes([width, height]: [u32; 2]) -> u64 {
     u64::from(width) * u64::from(height) * (192 + 2 * 76)
 }
 
+/// Memory that layers on request take beside that: 60 bytes a pixel and layer, in the film and in two passes.
+pub(crate) fn layer_bytes([width, height]: [u32; 2], layers: usize) -> u64 {
+    u64::from(width) * u64::from(height) * layers as u64 * (36 + 2 * 12)
+}
+
 /// Asks the system for that many bytes, and gives them back. A system that promises more than it has is believed.
 pub(crate) fn check_memory(bytes: u64) -> Result<(), SessionError> {
     let none = SessionError::Memory(bytes);

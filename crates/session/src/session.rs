@@ -10,7 +10,7 @@ use par::Workers;
 use scene::Scene;
 
 use crate::checkpoint::{CheckpointFile, CheckpointInfo, Saver};
-use crate::job::{check_memory, has_end};
+use crate::job::{check_memory, has_end, layer_bytes};
 use crate::pace::Pace;
 use crate::ranges::{count, missing};
 use crate::run::{Fold, Run};
@@ -63,7 +63,8 @@ impl Session {
         // What an integrator finds out about the scene at first, it finds on this many threads.
         let workers = Workers::new(threads).map_err(SessionError::Threads)?;
         let integrator = workers.run(|| integrators::integrator(&job.settings, &job.scene));
-        Self::with_integrator(job.scene, integrator, job.passes, threads)
+        let layers = integrators::layer_names(&job.settings, &job.scene);
+        Self::with_integrator(job.scene, integrator, job.passes, threads)?.with_layers(layers)
     }
 
     pub(crate) fn with_integrator(
@@ -94,6 +95,16 @@ impl Session {
             saved: None,
             snapshots: None,
         })
+    }
+
+    /// With a film that has named layers.
+    fn with_layers(self, names: Vec<String>) -> Result<Self, SessionError> {
+        if names.is_empty() {
+            return Ok(self);
+        }
+        let [width, height] = self.scene.resolution();
+        check_memory(film_bytes([width, height]) + layer_bytes([width, height], names.len()))?;
+        Ok(Self { film: Film::with_layers(width as usize, height as usize, names)?, ..self })
     }
 
     /// Starts from a film that holds some passes, of the same job or one that differs in its passes alone.

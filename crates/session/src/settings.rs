@@ -1,7 +1,7 @@
 use film::{FilmError, Filter, FilterKind};
 use integrators::{
-    DirectLight, IntegratorKind, Kernel, PhotonMapSettings, RadiusSettings, Settings, SppmSettings,
-    StartRadius, VcmSettings, VcmTechniques,
+    DirectLight, IntegratorKind, Kernel, LayerSettings, PhotonMapSettings, RadiusSettings, Settings,
+    SppmSettings, StartRadius, VcmSettings, VcmTechniques,
 };
 use scenefile::desc::{self, SceneDesc};
 
@@ -22,6 +22,7 @@ pub fn settings(desc: &SceneDesc) -> Result<Settings, FilmError> {
         seed: desc.render.seed,
         max_depth: desc.render.max_depth.unwrap_or(u32::MAX),
         filter: Filter::new(filter_kind(desc.film.filter), desc.film.filter_radius)?,
+        layers: LayerSettings { techniques: desc.film.layers.techniques, lights: desc.film.layers.lights },
         photon_map: PhotonMapSettings {
             photons: map.photons,
             caustic_photons: map.caustic_photons,

@@ -3,9 +3,10 @@
 use color::Lanes;
 use film::{Filter, PixelSample};
 use math::Vec2;
-use scene::LightId;
+use scene::{LightId, Scene};
 use transport::LightLayer;
 
+use crate::layers::Layers;
 use crate::sink::{Origin, Sink, Source, Technique};
 
 /// A vertex of a light path seen by the camera.
@@ -67,4 +68,29 @@ pub(super) fn add_to_pixel(
             }
         });
     }
+}
+
+/// The same as [`add`] to the layers of their technique and of their lights.
+pub(super) fn add_to_layers(
+    splats: &[Splat],
+    filter: &Filter,
+    size: [usize; 2],
+    samples: &[PixelSample],
+    layers: &mut Layers,
+    scene: &Scene,
+) {
+    let slots = &layers.slots;
+    par::fill_chunks(&mut layers.values, samples.len(), |layer, values| {
+        for splat in splats {
+            let origin = splat.origin();
+            if !slots.of(&origin, scene).any(|slot| slot == layer) {
+                continue;
+            }
+            filter.spread(splat.film_position, size, |x, y, weight| {
+                let pixel = y * size[0] + x;
+                let share = splat.radiance * (weight / samples[pixel].weight);
+                values[pixel].iter_mut().zip(share.to_rgb()).for_each(|(v, s)| *v += s);
+            });
+        }
+    });
 }

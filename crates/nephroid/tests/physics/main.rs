@@ -13,6 +13,7 @@ mod determinism;
 mod furnace;
 mod lamps;
 mod materials;
+mod layers;
 mod nephroid_curve;
 mod nested;
 mod oracle;

@@ -38,6 +38,7 @@ struct Placed {
     material: MaterialId,
     emission: Option<Sourced<scenefile::desc::Emission>>,
     name: String,
+    light_group: Option<String>,
     span: Option<Span>,
 }
 
@@ -123,6 +124,7 @@ impl<'d> Compiler<'d> {
                     material,
                     emission: object.emission,
                     name: object.name.clone().unwrap_or_default(),
+                    light_group: object.light_group.clone().or_else(|| object.name.clone()),
                     span: object.span,
                 }),
                 Err(diagnostic) => self.diagnostics.push(diagnostic),
@@ -142,8 +144,8 @@ impl<'d> Compiler<'d> {
         self.bounds = self.bounds.union(placed.solid.bounds());
         let light = placed.emission.and_then(|emission| match lights::area_light(&placed.solid, &emission) {
             Some(light) => {
-                let named = (!placed.name.is_empty()).then_some(placed.name.as_str());
-                Some(self.push_light(light, placed.name.clone(), named, Some(placed.solid.a_point())))
+                let group = placed.light_group.as_deref();
+                Some(self.push_light(light, placed.name.clone(), group, Some(placed.solid.a_point())))
             }
             None => {
                 self.diagnostics.push(
@@ -279,7 +281,7 @@ impl<'d> Compiler<'d> {
         match lights::light(&light.kind) {
             Some((compiled, point)) => {
                 let name = light.name.clone().unwrap_or_else(|| lights::kind_name(&compiled).to_owned());
-                let group = light.name.as_deref();
+                let group = light.light_group.as_deref().or(light.name.as_deref());
                 self.push_light(compiled, name, group, point);
             }
             None => self.diagnostics.push(

@@ -99,12 +99,14 @@ pub enum LightKind {
 pub struct Light {
     /// A name for messages and overrides; unique among lights.
     pub name: Option<String>,
+    /// The group that it is counted to in layers; `None`: its name.
+    pub light_group: Option<String>,
     /// What it is.
     pub kind: LightKind,
 }
 
 impl From<LightKind> for Light {
     fn from(kind: LightKind) -> Self {
-        Self { name: None, kind }
+        Self { name: None, light_group: None, kind }
     }
 }

@@ -149,6 +149,17 @@ pub struct Film {
     pub exposure: f32,
     /// The display transform of 8-bit output.
     pub view: View,
+    /// Layers besides those that every picture has.
+    pub layers: Layers,
+}
+
+/// Layers of a picture that are made on request.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Layers {
+    /// One for each technique that finds light.
+    pub techniques: bool,
+    /// One for each group of lights.
+    pub lights: bool,
 }
 
 impl Default for Film {
@@ -159,6 +170,7 @@ impl Default for Film {
             filter_radius: None,
             exposure: 0.0,
             view: View::Agx,
+            layers: Layers::default(),
         }
     }
 }
@@ -421,6 +433,8 @@ pub struct Object {
     pub flip_normals: bool,
     /// The light it gives off.
     pub emission: Option<Sourced<Emission>>,
+    /// The group that its light is counted to in layers; `None`: its name.
+    pub light_group: Option<String>,
 }
 
 impl Object {
@@ -443,6 +457,7 @@ impl Object {
             transform: Vec::new(),
             flip_normals: false,
             emission: None,
+            light_group: None,
         }
     }
 }

@@ -10,6 +10,7 @@ pub(super) fn light(report: &mut Report, what: String, node: &Node) -> Option<Li
     let table = as_table(report, &what, node)?;
     let r = Reader::new(report, &spec::LIGHTS, what, table, node.span);
     let name = r.optional_text(report, "name");
+    let light_group = r.optional_text(report, "light_group").flatten().map(|group| group.value);
     let kind = match r.variant() {
         Some("point") => {
             let position = r.point(report, "position");
@@ -29,7 +30,7 @@ pub(super) fn light(report: &mut Report, what: String, node: &Node) -> Option<Li
     };
     // A black environment after a mistake: nothing more is said of it, nor of a scene without light.
     let kind = kind.unwrap_or(LightKind::Environment { radiance: [0.0; 3] });
-    Some(Light { name: name.flatten().map(|name| name.value), kind })
+    Some(Light { name: name.flatten().map(|name| name.value), light_group, kind })
 }
 
 /// Either `intensity` or `power` with `color`.

@@ -27,6 +27,7 @@ pub(super) fn object(report: &mut Report, what: String, node: &Node) -> Object {
     let transform = transform(report, &r);
     let flip_normals = r.bool(report, "flip_normals");
     let emission = emission(report, &r);
+    let light_group = r.optional_text(report, "light_group").flatten().map(|group| group.value);
     let wrong_emission = r.given("radiance").or(r.given("power")).is_some() && emission.is_none();
     Object {
         name: name.flatten().map(|name| name.value),
@@ -36,6 +37,7 @@ pub(super) fn object(report: &mut Report, what: String, node: &Node) -> Object {
         transform,
         flip_normals: flip_normals.unwrap_or(false),
         emission,
+        light_group,
     }
 }
 
@@ -44,9 +46,11 @@ fn emission(report: &mut Report, r: &Reader<'_>) -> Option<Sourced<Emission>> {
     let power = power(report, r, "radiance");
     let two_sided = r.bool(report, "two_sided_emission");
     let given = r.given("radiance").or(r.given("power"));
-    if let (Some(entry), None) = (r.given("two_sided_emission"), given) {
-        let message = format!("`two_sided_emission` without `radiance` or `power` in {}", r.what);
-        report.push(Diagnostic::error("conflict", message).at(entry.key_span));
+    for key in ["two_sided_emission", "light_group"] {
+        if let (Some(entry), None) = (r.given(key), given) {
+            let message = format!("`{key}` without `radiance` or `power` in {}", r.what);
+            report.push(Diagnostic::error("conflict", message).at(entry.key_span));
+        }
     }
     let amount = match (radiance?, power?) {
         (Some(radiance), _) => EmissionAmount::Radiance(radiance),

@@ -1,8 +1,8 @@
 //! `[render]`, `[film]`, `[camera]`, `[photon_map]`, `[sppm]`, `[vcm]`.
 
 use crate::desc::{
-    Camera, CameraKind, DirectLight, Film, FilterKind, FovAxis, IntegratorKind, PhotonFilter, PhotonMap,
-    Render, SceneDesc, Sppm, Vcm, VcmTechniques, View,
+    Camera, CameraKind, DirectLight, Film, FilterKind, FovAxis, IntegratorKind, Layers, PhotonFilter,
+    PhotonMap, Render, SceneDesc, Sppm, Vcm, VcmTechniques, View,
 };
 use crate::diagnostic::{Diagnostic, Report};
 use crate::reader::Reader;
@@ -39,6 +39,10 @@ pub(super) fn film(report: &mut Report, r: &Reader<'_>, desc: &mut SceneDesc) {
     });
     let filter_radius = r.optional_number(report, "filter_radius");
     let exposure = r.number(report, "exposure");
+    let layers = r.words(report, "layers").map(|words| {
+        let words = words.unwrap_or_default();
+        Layers { techniques: words.contains(&"techniques"), lights: words.contains(&"lights") }
+    });
     let view = r.word(report, "view").map(|word| if word == "srgb" { View::Srgb } else { View::Agx });
     if let (Some([width, height]), Some(entry)) = (size, r.given("size"))
         && width as u64 * height as u64 > MOST_PIXELS
@@ -46,10 +50,10 @@ pub(super) fn film(report: &mut Report, r: &Reader<'_>, desc: &mut SceneDesc) {
         let message = format!("a picture of {width} x {height} has more than 2^30 pixels");
         report.push(Diagnostic::error("out-of-range", message).at(entry.node.span));
     }
-    if let (Some(size), Some(filter), Some(filter_radius), Some(exposure), Some(view)) =
-        (size, filter, filter_radius, exposure, view)
+    if let (Some(size), Some(filter), Some(filter_radius), Some(exposure), Some(view), Some(layers)) =
+        (size, filter, filter_radius, exposure, view, layers)
     {
-        desc.film = Film { size, filter, filter_radius, exposure, view };
+        desc.film = Film { size, filter, filter_radius, exposure, view, layers };
     }
 }
 

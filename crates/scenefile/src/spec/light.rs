@@ -102,12 +102,21 @@ pub const LIGHTS: Section = Section {
             },
         ],
     }),
-    keys: &[key(
-        "name",
-        Kind::Text,
-        "",
-        Absent("none"),
-        "A name for messages and for --set lights.NAME.KEY=VALUE.",
-    )],
+    keys: &[
+        key(
+            "name",
+            Kind::Text,
+            "",
+            Absent("none"),
+            "A name for messages and for --set lights.NAME.KEY=VALUE.",
+        ),
+        key(
+            "light_group",
+            Kind::Text,
+            "",
+            Absent("the light's name"),
+            "Lights of one group share a layer where film.layers asks for lights.",
+        ),
+    ],
     example: "",
 };

@@ -331,6 +331,13 @@ pub const OBJECTS: Section = Section {
             Absent("false"),
             "Whether both sides emit and share the power; else the side of the normal.",
         ),
+        key(
+            "light_group",
+            Kind::Text,
+            "",
+            Absent("the object's name"),
+            "Lights of one group share a layer where film.layers asks for lights.",
+        ),
     ],
     example: "",
 };

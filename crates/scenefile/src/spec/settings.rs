@@ -52,6 +52,14 @@ const FILTERS: &[Word] = &[
 const VIEWS: &[Word] =
     &[word("agx", "AgX: highlights roll off as on film."), word("srgb", "The plain sRGB curve, clipped.")];
 
+const LAYERS: &[Word] = &[
+    word(
+        "techniques",
+        "One for each way of finding light: technique-emission, -direct, -merge, -connect, -project.",
+    ),
+    word("lights", "One for each group of lights (light_group): light-NAME."),
+];
+
 /// `[film]`.
 pub const FILM: Section = Section {
     name: "film",
@@ -88,6 +96,13 @@ pub const FILM: Section = Section {
             "",
             Preset::Word("agx"),
             "PNG only: how radiance becomes display colour.",
+        ),
+        key(
+            "layers",
+            Kind::Words(LAYERS),
+            "",
+            Absent("none"),
+            "EXR only: more layers; those of each word add up to the picture.",
         ),
     ],
     example: "[film]\nsize = [640, 480]\nexposure = 1.5\n",

@@ -108,6 +108,11 @@ fn film(desc: &SceneDesc) -> Fields {
             View::Srgb => "srgb",
         },
     );
+    let layers = [("techniques", film.layers.techniques), ("lights", film.layers.lights)];
+    let wanted: Vec<_> = layers.into_iter().filter(|(_, wanted)| *wanted).collect();
+    if !wanted.is_empty() {
+        f.list("layers", &wanted, |(name, _)| quote(name));
+    }
     f
 }
 
@@ -238,6 +243,9 @@ fn object_fields(object: &Object) -> Fields {
     f.bool("flip_normals", object.flip_normals);
     if let Some(emission) = &object.emission {
         emission_fields(&mut f, emission);
+    }
+    if let Some(group) = &object.light_group {
+        f.text("light_group", group);
     }
     f
 }
@@ -436,6 +444,9 @@ fn light_fields(light: &Light) -> Fields {
     }
     if let Some(name) = &light.name {
         f.first("name", quote(name));
+    }
+    if let Some(group) = &light.light_group {
+        f.text("light_group", group);
     }
     f
 }
