@@ -19,7 +19,7 @@ fn desc(integrator: IntegratorKind) -> SceneDesc {
     desc.photon_map.photons = 3000;
     desc.photon_map.caustic_photons = 3000;
     let position = [1.5, 4.0, 1.5];
-    let amount = PointAmount::Power { watts: 20.0, color: [1.0, 0.6, 0.3] };
+    let amount = PointAmount::Power { watts: 100.0, color: [1.0, 0.6, 0.3] };
     let bulb = Light { light_group: Some("bulbs".into()), ..LightKind::Point { position, amount }.into() };
     desc.lights.push(bulb.into());
     desc
@@ -142,7 +142,7 @@ fn apart([a, ea]: [f64; 2], [b, eb]: [f64; 2]) -> f64 {
 fn a_group_s_layer_is_the_picture_with_its_lights_alone() {
     for kind in KINDS {
         let mut means: [Vec<f64>; 5] = Default::default();
-        for seed in 0..12 {
+        for seed in 0..16 {
             let mut both = desc(kind);
             both.render.seed = seed;
             both.photon_map.final_gather = 0;
