@@ -105,7 +105,7 @@ fn companions(section: &Section, kind: &str, key: &str) -> (&'static [&'static s
         ("objects", "quad", "corners") => (&["origin", "edge_u", "edge_v"], ""),
         ("objects", _, "radiance" | "power") => (&["material"], ""),
         ("objects", _, "color") => (&[], "power = 3\n"),
-        ("objects", _, "two_sided_emission") => (&[], "radiance = 3\n"),
+        ("objects", _, "two_sided_emission" | "light_group") => (&[], "radiance = 3\n"),
         ("objects", "band", "inner_radius") => (&[], "outer_radius = 9\n"),
         ("objects", "mesh" | "triangles", "crease_angle") => (&[], "normals = \"smooth\"\n"),
         ("lights", "point" | "spot", "power") => (&["intensity"], ""),

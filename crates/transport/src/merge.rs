@@ -97,34 +97,30 @@ pub fn merge(map: &PhotonMap, vertex: &Vertex, lookup: &Lookup, scratch: &mut Sc
         return Merged { radiance: f * e, radius: found.radius, count: found.count };
     }
     let mut radiance = Lanes::ZERO;
-    let found = map.gather_knn(&query, lookup.knn, scratch, |photon, weight| {
-        radiance += receiver.reflected(photon, weight);
-    });
-    if let Some(behind) = query_behind(vertex, &query) {
-        map.gather_knn(&behind, lookup.knn, scratch, |photon, weight| {
-            radiance += receiver.reflected(photon, weight);
-        });
-    }
+    let found = merge_each(map, vertex, lookup, scratch, |_, part| radiance += part);
     Merged { radiance, radius: found.radius, count: found.count }
 }
 
-/// The photons of the estimate that [`merge`] makes: calls `f` with each and the radiance that it adds toward `vertex.wo`.
+/// The photons of the estimate that [`merge`] makes: calls `f` with each and the radiance that it adds toward `vertex.wo`;
+/// what was looked at on the side that is seen.
 pub fn merge_each(
     map: &PhotonMap,
     vertex: &Vertex,
     lookup: &Lookup,
     scratch: &mut Scratch,
     mut f: impl FnMut(&PhotonView<'_>, Lanes),
-) {
+) -> Neighbourhood {
+    let query = query(vertex, lookup.max_radius, lookup.kernel);
     let receiver = Receiver::new(vertex);
-    map.gather_knn(
-        &query(vertex, lookup.max_radius, lookup.kernel),
-        lookup.knn,
-        scratch,
-        |photon, weight| {
+    let found = map.gather_knn(&query, lookup.knn, scratch, |photon, weight| {
+        f(photon, receiver.reflected(photon, weight));
+    });
+    if let Some(behind) = query_behind(vertex, &query) {
+        map.gather_knn(&behind, lookup.knn, scratch, |photon, weight| {
             f(photon, receiver.reflected(photon, weight));
-        },
-    );
+        });
+    }
+    found
 }
 
 /// The same estimate with a given radius: calls `f` with each photon and the radiance that it adds toward `vertex.wo`,

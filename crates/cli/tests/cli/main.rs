@@ -3,6 +3,7 @@
 
 mod harness;
 mod interrupt;
+mod layers;
 #[cfg(all(unix, feature = "long"))]
 mod long;
 mod manual;
