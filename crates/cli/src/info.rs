@@ -116,7 +116,7 @@ fn kind(light: &Light) -> &'static str {
         Light::Point(_) => "point",
         Light::Spot(_) => "spot",
         Light::Directional(_) => "directional",
-        Light::Environment(_) => "environment",
+        Light::Environment(_) | Light::Sky(_) => "environment",
         Light::Sphere(_) => "sphere",
         Light::Disk(_) => "disk",
         Light::Triangles(_) => "triangles",

@@ -50,6 +50,8 @@ pub struct Scene {
     pub(crate) global_picker: LightPicker,
     pub(crate) caustic_picker: LightPicker,
     pub(crate) targets: Targets,
+    /// Whether any solid absorbs.
+    pub(crate) absorbs: bool,
     pub(crate) camera: Camera,
     pub(crate) camera_medium: MediumStack,
     pub(crate) resolution: [u32; 2],
@@ -102,6 +104,20 @@ impl Scene {
     pub fn boundary(&self, hit: &SurfaceInteraction, media: &MediumStack, w: Vec3) -> Option<Boundary> {
         let medium = self.medium(hit)?;
         Some(MediumStack::boundary(&{ *media }, medium, w.dot(hit.ng) < 0.0))
+    }
+
+    /// Whether any solid of the scene absorbs light on its way.
+    #[inline]
+    pub fn absorbs(&self) -> bool {
+        self.absorbs
+    }
+
+    /// What is left of light after `distance` (may be infinite) in the dielectric that `medium` bounds (`None`: in
+    /// vacuum): e^(−σ·d) (Beer–Lambert).
+    pub fn transmittance(&self, medium: Option<MaterialId>, distance: f32) -> Lanes {
+        let Some(id) = medium else { return Lanes::ONE };
+        let absorption = self.materials[id.0 as usize].absorption();
+        absorption.map(|sigma| if sigma > 0.0 { (-sigma * distance).exp() } else { 1.0 })
     }
 
     /// Materials by id.

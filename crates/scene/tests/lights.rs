@@ -201,7 +201,7 @@ fn le_positions_follow_their_density() {
             (Geometry::Triangles(_), _) if case.name == "quad" => {
                 Sheet::Plane(first.p, Frame::from_z(first.n))
             }
-            (Geometry::Nothing, Light::Directional(_) | Light::Environment(_)) => {
+            (Geometry::Nothing, Light::Directional(_) | Light::Environment(_) | Light::Sky(_)) => {
                 Sheet::Plane(-3.0 * first.w, Frame::from_z(first.w))
             }
             _ => continue,

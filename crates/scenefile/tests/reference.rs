@@ -112,6 +112,13 @@ fn companions(section: &Section, kind: &str, key: &str) -> (&'static [&'static s
         ("lights", "point" | "spot", "color") => (&["intensity"], "power = 3\n"),
         ("lights", "spot", "target") => (&["direction"], ""),
         ("materials", "conductor" | "coated-conductor", "metal") => (&["n", "k"], ""),
+        ("lights", "environment", "radiance") => (&["file"], ""),
+        ("lights", "environment", "scale" | "rotation" | "transform") => {
+            (&["radiance"], "file = \"wood.png\"\n")
+        }
+        ("lights", "environment", "file") => (&["radiance"], ""),
+        ("materials", _, "attenuation_color") => (&[], "attenuation_distance = 2\n"),
+        ("materials", _, "attenuation_distance") => (&[], "attenuation_color = 0.5\n"),
         ("materials", _, "alpha_across") => (&[], "alpha = 0.75\n"),
         _ => (&[], ""),
     }
@@ -125,6 +132,7 @@ fn scene(section: &Section, variant: Option<&Variant>, more: &str, without: &[&s
     let mut lines = String::new();
     for key in keys {
         let needed = key.preset == Preset::Required
+            || (section.name == "lights" && key.name == "radiance")
             || (essential.contains(&key.name) && !(section.name == "instances" && key.name == "material"));
         let given = more.lines().any(|line| line.starts_with(&format!("{} =", key.name)));
         if needed && !given && !without.contains(&key.name) {

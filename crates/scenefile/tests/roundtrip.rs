@@ -130,6 +130,7 @@ impl Dice {
                 roughness: self.roughness(),
                 facets: self.facets(),
                 film: self.film(),
+                absorption: self.amount(),
                 priority: self.next() as i32,
             }),
             4 => MaterialKind::Conductor(Conductor {
@@ -191,6 +192,7 @@ impl Dice {
             film: self.float(),
             film_thickness_nm: (self.unit() * 4000.0).into(),
             film_ior: 1.0 + self.unit(),
+            absorption: self.amount(),
             priority: self.next() as i32,
         }
     }
@@ -337,7 +339,12 @@ impl Dice {
             PointAmount::Power { watts: 1.0 + self.unit(), color: self.amount().map(|x| x.min(1e3)) }
         };
         let position = self.triple();
-        let kind = match self.below(4) {
+        let kind = match self.below(5) {
+            4 => LightKind::Sky {
+                file: "wölk \"1\".hdr".into(),
+                scale: self.amount(),
+                transform: self.steps(),
+            },
             0 => LightKind::Point { position, amount },
             1 => {
                 let cone_angle = self.unit() * 179.0 + 1.0;
@@ -445,7 +452,7 @@ impl Dice {
 #[test]
 fn scenes_read_back_as_they_were() {
     let folder = tempfile::tempdir().unwrap();
-    for file in ["pic\\ture.png", "cöw \"1\".ply"] {
+    for file in ["pic\\ture.png", "cöw \"1\".ply", "wölk \"1\".hdr"] {
         std::fs::write(folder.path().join(file), "").unwrap();
     }
     let path = folder.path().join("scene.toml");

@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use scenefile::desc::{Film, Render, SceneDesc, Shape, Texture};
+use scenefile::desc::{Film, LightKind, Render, SceneDesc, Shape, Texture};
 
 /// What a scene is known by: equal for equal descriptions and equal files, on every machine.
 ///
@@ -60,7 +60,11 @@ pub(crate) fn files(desc: &SceneDesc) -> BTreeSet<&Path> {
         Shape::Mesh { file, .. } => Some(file.value.as_path()),
         _ => None,
     });
-    textures.chain(meshes).collect()
+    let skies = desc.lights.iter().filter_map(|light| match &light.kind {
+        LightKind::Sky { file, .. } => Some(file.value.as_path()),
+        _ => None,
+    });
+    textures.chain(meshes).chain(skies).collect()
 }
 
 /// The hash of what is in a file, as of a scene.

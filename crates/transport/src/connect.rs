@@ -44,7 +44,8 @@ pub fn connect(scene: &Scene, eye: &PathVertex, light: &LightVertex, eta: f64) -
         reached: density(y, y.wo, -wi, TransportMode::Importance) * geometric_cos(x, wi) * over,
     };
     let weight = connection_weight(eta, &light_end, &eye_end);
-    let radiance = light.flux * f_light * f_eye * (cos_eye * weight / d2);
+    let left = x.transmittance(scene, wi, d2.sqrt());
+    let radiance = light.flux * f_light * f_eye * left * (cos_eye * weight / d2);
     if radiance.is_zero() || scene.occluded(&x.hit.spawn_ray_to(y.hit.p, y.hit.p_error, facing(y, -wi))) {
         return None;
     }
@@ -90,7 +91,8 @@ pub fn connect_light(scene: &Scene, eye: &PathVertex, eta: f64, sampler: &mut Sa
         return None;
     }
     let factor = vertex.bsdf.abs_cos(li.wi) * weight / (pmf * li.pdf_w);
-    Some(Direct { light, radiance: f * li.radiance * factor })
+    let left = vertex.transmittance(scene, li.wi, li.distance);
+    Some(Direct { light, radiance: f * li.radiance * left * factor })
 }
 
 /// The light that the surface at `vertex` is, seen from the eye path's last vertex.

@@ -115,7 +115,8 @@ fn direct_weighted(
         return None;
     }
     let cos = vertex.bsdf.ns().dot(li.wi).abs();
-    Some(Direct { light, radiance: f * li.radiance * (cos * weight / (pmf * li.pdf_w)) })
+    let left = vertex.transmittance(scene, li.wi, li.distance);
+    Some(Direct { light, radiance: f * li.radiance * left * (cos * weight / (pmf * li.pdf_w)) })
 }
 
 /// A light that a walk met by following its own ray.

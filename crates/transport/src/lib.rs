@@ -38,4 +38,4 @@ pub use path_class::{LightLayer, PathClass};
 pub use photon::{PhotonBalance, PhotonBatch, PhotonJob, PhotonPaths, observe_photon, trace_photons};
 pub use project::{Projection, is_seen, project};
 pub use subpath::{EyeEnd, PathVertex, Subpath};
-pub use walk::{ENDLESS_DEPTH, Scattered, Vertex, Walk};
+pub use walk::{ENDLESS_DEPTH, Scattered, Sides, Vertex, Walk};

@@ -59,7 +59,7 @@ pub struct PhotonBatch {
 pub struct PhotonBalance {
     /// Left the lights.
     pub emitted: f64,
-    /// Taken by surfaces.
+    /// Taken by surfaces, and by what fills solids.
     pub absorbed: f64,
     /// Left the scene.
     pub escaped: f64,
@@ -144,7 +144,10 @@ fn trace_one(
     let mut diffuse_events = 0u32;
     let mut specular_events = 0u32;
     loop {
-        let Some(vertex) = walk.next_vertex() else {
+        let sent = flux(walk);
+        let reached = walk.next_vertex();
+        batch.balance.absorbed += sent - flux(walk);
+        let Some(vertex) = reached else {
             batch.balance.escaped += flux(walk);
             return PathEnd::Escaped;
         };

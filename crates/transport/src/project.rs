@@ -37,7 +37,8 @@ pub fn project(scene: &Scene, light: &LightVertex) -> Option<(Projection, Vec3)>
     if f.is_zero() {
         return None;
     }
-    let radiance = light.flux * f * wi.importance;
+    let left = vertex.transmittance(scene, wi.wi, wi.distance);
+    let radiance = light.flux * f * left * wi.importance;
     let density_w = f64::from(camera.pdf_we_w(wi.p, -wi.wi));
     let end = End {
         mis: light.at.mis,

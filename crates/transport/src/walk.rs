@@ -2,7 +2,7 @@ use bsdf::{Bsdf, DeltaLobe, Lobes, TransportMode};
 use color::Lanes;
 use math::{Ray, Vec3};
 use sampling::Sampler;
-use scene::{Boundary, MediumStack, Scene, SurfaceInteraction};
+use scene::{Boundary, MaterialId, MediumStack, Scene, SurfaceInteraction};
 
 /// Scattering events after which every walk may end.
 pub const ENDLESS_DEPTH: u32 = 64;
@@ -50,6 +50,31 @@ pub struct Vertex {
     pub wo: Vec3,
     /// Width of the ray there, in units of length.
     pub footprint: f32,
+    /// What fills the space on either side.
+    pub sides: Sides,
+}
+
+/// The dielectrics on both sides of a vertex; known only where the scene has some that absorb.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sides {
+    /// Where the walk came from.
+    pub seen: Option<MaterialId>,
+    /// Beyond the surface.
+    pub beyond: Option<MaterialId>,
+}
+
+impl Vertex {
+    /// What is left, after `distance`, of light that leaves or arrives along `w` without meeting a surface.
+    #[inline]
+    pub fn transmittance(&self, scene: &Scene, w: Vec3, distance: f32) -> Lanes {
+        if scene.absorbs() { self.attenuation(scene, w, distance) } else { Lanes::ONE }
+    }
+
+    #[inline(never)]
+    fn attenuation(&self, scene: &Scene, w: Vec3, distance: f32) -> Lanes {
+        let same = (w.dot(self.hit.ng) > 0.0) == (self.wo.dot(self.hit.ng) > 0.0);
+        scene.transmittance(if same { self.sides.seen } else { self.sides.beyond }, distance)
+    }
 }
 
 /// A scattering event.
@@ -106,7 +131,15 @@ impl<'s> Walk<'s> {
     pub fn next_vertex(&mut self) -> Option<Vertex> {
         // A bound only against geometry that is degenerate: each round passes one invisible boundary.
         for _ in 0..4096 {
-            let hit = self.scene.intersect(&self.ray)?;
+            let Some(hit) = self.scene.intersect(&self.ray) else {
+                if self.scene.absorbs() {
+                    self.attenuate(f32::INFINITY);
+                }
+                return None;
+            };
+            if self.scene.absorbs() {
+                self.attenuate(hit.t);
+            }
             self.footprint += self.spread * hit.t;
             let eta = match self.scene.boundary(&hit, &self.media, self.ray.direction) {
                 None => 1.0,
@@ -124,9 +157,25 @@ impl<'s> Walk<'s> {
             };
             let wo = -self.ray.direction;
             let bsdf = self.scene.bsdf(&hit, wo, eta, self.footprint);
-            return Some(Vertex { hit, bsdf, wo, footprint: self.footprint });
+            let sides = if self.scene.absorbs() { self.sides(&hit) } else { Sides::default() };
+            return Some(Vertex { hit, bsdf, wo, footprint: self.footprint, sides });
         }
         None
+    }
+
+    /// What the dielectric around the ray absorbs on the way.
+    #[inline(never)]
+    fn attenuate(&mut self, distance: f32) {
+        let medium = self.media.current().map(|m| m.material);
+        self.throughput *= self.scene.transmittance(medium, distance);
+    }
+
+    #[inline(never)]
+    fn sides(&self, hit: &SurfaceInteraction) -> Sides {
+        let mut beyond = *self;
+        beyond.cross(hit);
+        let filling = |walk: &Self| walk.media.current().map(|m| m.material);
+        Sides { seen: filling(self), beyond: filling(&beyond) }
     }
 
     /// Moves the medium stack through the boundary at `hit`.

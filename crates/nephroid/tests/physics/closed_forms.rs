@@ -93,7 +93,7 @@ fn scene(case: &Case) -> SceneDesc {
     let camera = look([2.0, 0.7, 0.5], [0.0; 3], 0.03);
     let mut desc = scene_of(camera, 8, vec![Object::new(ground(0.0, 2.0), grey(ALBEDO as f32))]);
     match &case.light {
-        Source::Light(kind) => desc.lights.push(Light::from(*kind).into()),
+        Source::Light(kind) => desc.lights.push(Light::from(kind.clone()).into()),
         Source::Lamp(object) => desc.objects.push((**object).clone().into()),
     }
     desc

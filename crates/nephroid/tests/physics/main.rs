@@ -18,6 +18,7 @@ mod nephroid_curve;
 mod nested;
 mod oracle;
 mod replay;
+mod sky;
 mod sppm;
 mod support;
 mod traps;

@@ -1,11 +1,14 @@
 use color::Lanes;
-use math::{PI, Vec3};
-use scenefile::desc::{Emission, EmissionAmount, LightKind, PointAmount, channel_power};
+use std::path::Path;
 
-use super::shapes::Solid;
+use math::{Affine3A, Mat3, PI, Transform, Vec3};
+use scenefile::desc::{Emission, EmissionAmount, LightKind, PointAmount, TransformStep, channel_power};
+
+use super::shapes::{self, Solid};
 use crate::Light;
 use crate::light::{
-    DirectionalLight, DiskLight, EnvironmentLight, PointLight, Sides, SphereLight, SpotLight, TriangleLight,
+    DirectionalLight, DiskLight, EnvironmentLight, PointLight, Sides, SkyLight, SphereLight, SpotLight,
+    TriangleLight,
 };
 
 fn lanes([r, g, b]: [f32; 3]) -> Lanes {
@@ -72,7 +75,28 @@ pub(super) fn light(kind: &LightKind) -> Option<(Light, Option<Vec3>)> {
         LightKind::Environment { radiance } => {
             Some((Light::Environment(EnvironmentLight::new(lanes(radiance))?), None))
         }
+        LightKind::Sky { .. } => None,
     }
+}
+
+/// The light of a picture of the sky.
+pub(super) fn sky(path: &Path, scale: [f32; 3], steps: &[TransformStep]) -> Result<Light, String> {
+    let turned = shapes::transform(steps).and_then(|t| turn(&t)).ok_or("its transform is singular")?;
+    match SkyLight::from_path(path, scale, turned) {
+        Ok(Some(sky)) => Ok(Light::Sky(Box::new(sky))),
+        Ok(None) => Err("it is black, or holds values that are negative or not finite".into()),
+        Err(e) => Err(e.to_string()),
+    }
+}
+
+/// The part of a transform that turns (and mirrors): what it makes of the axes, made a right-angled frame of unit length.
+fn turn(t: &Transform) -> Option<Transform> {
+    let y = t.vector(Vec3::Y).try_normalize()?;
+    let z = t.vector(Vec3::Z);
+    let z = (z - y * y.dot(z)).try_normalize()?;
+    let x = y.cross(z);
+    let x = if x.dot(t.vector(Vec3::X)) < 0.0 { -x } else { x };
+    Transform::new(Affine3A::from_mat3(Mat3::from_cols(x, y, z)))
 }
 
 /// What to call a light that has no name.
@@ -81,7 +105,7 @@ pub(super) fn kind_name(light: &Light) -> &'static str {
         Light::Point(_) => "point light",
         Light::Spot(_) => "spot light",
         Light::Directional(_) => "directional light",
-        Light::Environment(_) => "environment",
+        Light::Environment(_) | Light::Sky(_) => "environment",
         Light::Sphere(_) | Light::Disk(_) | Light::Triangles(_) => "lamp",
     }
 }

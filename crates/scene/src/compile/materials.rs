@@ -138,6 +138,7 @@ impl<'d> Library<'d> {
                 roughness: self.roughness(&m.roughness),
                 facets: facets(m.facets),
                 film: [m.film.thickness_nm, m.film.ior],
+                absorption: rgb(m.absorption),
                 priority: m.priority,
             }),
             desc::MaterialKind::Conductor(m) => {
@@ -219,6 +220,7 @@ impl<'d> Library<'d> {
             film: self.float(&m.film),
             film_thickness_nm: self.float(&m.film_thickness_nm),
             film_ior: m.film_ior,
+            absorption: rgb(m.absorption),
             priority: m.priority,
             is_solid: m.is_solid(),
         }
@@ -374,6 +376,10 @@ impl<'d> Library<'d> {
             },
         }
     }
+}
+
+fn rgb([r, g, b]: desc::Triple) -> Lanes {
+    Lanes::rgb(r, g, b)
 }
 
 fn facets(facets: desc::Facets) -> Facets {

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use accel::{Bvh, Geometry};
 use math::{Bounds3, Transform, Vec3};
-use scenefile::desc::{CameraKind, FovAxis, MaterialRef, Object as ObjectDesc, SceneDesc};
+use scenefile::desc::{CameraKind, FovAxis, LightKind, MaterialRef, Object as ObjectDesc, SceneDesc};
 use scenefile::{Diagnostic, Sourced, Span};
 
 use crate::camera::{Fov, Lens};
@@ -278,19 +278,27 @@ impl<'d> Compiler<'d> {
     }
 
     fn add_light(&mut self, light: &Sourced<scenefile::desc::Light>) {
-        match lights::light(&light.kind) {
-            Some((compiled, point)) => {
+        let built = match &light.kind {
+            LightKind::Sky { file, scale, transform } => {
+                lights::sky(&self.desc.resolve(file), *scale, transform).map(|sky| (sky, None)).map_err(
+                    |reason| {
+                        let message = format!("cannot light by `{}`: {reason}", file.display());
+                        Diagnostic::error("bad-image", message).at(file.span)
+                    },
+                )
+            }
+            kind => lights::light(kind).ok_or_else(|| {
+                let message = "this light has a direction of length zero or a value that is no number";
+                Diagnostic::error("bad-light", message).at(light.span)
+            }),
+        };
+        match built {
+            Ok((compiled, point)) => {
                 let name = light.name.clone().unwrap_or_else(|| lights::kind_name(&compiled).to_owned());
                 let group = light.light_group.as_deref().or(light.name.as_deref());
                 self.push_light(compiled, name, group, point);
             }
-            None => self.diagnostics.push(
-                Diagnostic::error(
-                    "bad-light",
-                    "this light has a direction of length zero or a value that is no number",
-                )
-                .at(light.span),
-            ),
+            Err(diagnostic) => self.diagnostics.push(diagnostic),
         }
     }
 
@@ -354,10 +362,11 @@ impl<'d> Compiler<'d> {
         let targets = Targets::new(self.targets);
         let environments = (0..self.lights.len() as u32)
             .map(LightId)
-            .filter(|id| matches!(self.lights[id.0 as usize], Light::Environment(_)))
+            .filter(|id| matches!(self.lights[id.0 as usize], Light::Environment(_) | Light::Sky(_)))
             .collect();
         let material_names = self.library.names();
         let (materials, textures) = self.library.finish();
+        let absorbs = materials.iter().any(|m| !m.absorption().is_zero());
         let mut scene = Scene {
             bvh,
             outer: self.outer,
@@ -377,6 +386,7 @@ impl<'d> Compiler<'d> {
             group_names: self.group_names,
             targets,
             camera,
+            absorbs,
             camera_medium: MediumStack::default(),
             resolution: self.desc.film.size,
             bounds: self.bounds,

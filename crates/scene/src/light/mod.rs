@@ -14,6 +14,7 @@ mod emission;
 mod environment;
 mod picker;
 mod point;
+mod sky;
 mod sphere;
 mod spot;
 mod triangles;
@@ -29,6 +30,7 @@ use emission::{Emission, Origin};
 pub use environment::EnvironmentLight;
 pub use picker::LightPicker;
 pub use point::PointLight;
+pub use sky::SkyLight;
 pub use sphere::SphereLight;
 pub use spot::SpotLight;
 pub use triangles::TriangleLight;
@@ -44,6 +46,8 @@ pub enum Light {
     Directional(DirectionalLight),
     /// Equal radiance from everywhere at infinity.
     Environment(EnvironmentLight),
+    /// A picture of the sky at infinity.
+    Sky(Box<SkyLight>),
     /// A sphere.
     Sphere(SphereLight),
     /// A flat disc.
@@ -128,6 +132,7 @@ impl Light {
             Self::Spot(l) => l.sample_li(p),
             Self::Directional(l) => l.sample_li(p),
             Self::Environment(l) => l.sample_li(p, u),
+            Self::Sky(l) => l.sample_li(p, u),
             Self::Sphere(l) => l.sample_li(p, u),
             Self::Disk(l) => l.sample_li(p, u),
             Self::Triangles(l) => l.sample_li(p, 0.0, u),
@@ -140,6 +145,7 @@ impl Light {
     pub fn pdf_li_w(&self, p: Vec3, wi: Vec3, hit: Option<LightHit>) -> f32 {
         match (self, hit) {
             (Self::Environment(l), None) => l.pdf_li_w(),
+            (Self::Sky(l), None) => l.pdf_w(wi),
             (Self::Sphere(l), Some(hit)) => l.pdf_li_w(p, wi, hit),
             (Self::Disk(l), Some(hit)) => l.surface().pdf_li_w(l.area(), p, wi, hit),
             (Self::Triangles(l), Some(hit)) => l.surface().pdf_li_w(l.area(), p, wi, hit),
@@ -154,14 +160,17 @@ impl Light {
             Self::Sphere(l) => l.surface().emitted(ng, w),
             Self::Disk(l) => l.surface().emitted(ng, w),
             Self::Triangles(l) => l.surface().emitted(ng, w),
-            Self::Point(_) | Self::Spot(_) | Self::Directional(_) | Self::Environment(_) => Lanes::ZERO,
+            Self::Point(_) | Self::Spot(_) | Self::Directional(_) | Self::Environment(_) | Self::Sky(_) => {
+                Lanes::ZERO
+            }
         }
     }
 
     /// Radiance seen by a ray that leaves the scene along `w`. Zero for all but environments.
-    pub fn escaped(&self, _w: Vec3) -> Lanes {
+    pub fn escaped(&self, w: Vec3) -> Lanes {
         match self {
             Self::Environment(l) => l.radiance(),
+            Self::Sky(l) => l.radiance(w),
             _ => Lanes::ZERO,
         }
     }
@@ -173,6 +182,7 @@ impl Light {
         match self {
             Self::Directional(l) => l.sample_le(u_pos),
             Self::Environment(l) => l.sample_le(u_pos, u_dir),
+            Self::Sky(l) => l.sample_le(u_pos, u_dir),
             _ => {
                 let origin = self.origin(u_pick, u_pos)?;
                 let emission = self.emission(origin.ng)?;
@@ -188,6 +198,7 @@ impl Light {
         match self {
             Self::Directional(l) => (l.pdf_le_a(p), 1.0),
             Self::Environment(l) => (l.pdf_le_a(p, w), l.pdf_li_w()),
+            Self::Sky(l) => (l.pdf_le_a(p, w), l.pdf_w(-w)),
             _ => (self.origin_pdf_a(), self.emission(ng).map_or(0.0, |e| e.pdf_w(w))),
         }
     }
@@ -206,6 +217,7 @@ impl Light {
         match self {
             Self::Directional(l) => l.sample_le_toward(targets, u_pick, u_pos),
             Self::Environment(l) => l.sample_le_toward(targets, u_pick, u_pos, u_dir),
+            Self::Sky(l) => l.sample_le_toward(targets, u_pick, u_pos, u_dir),
             _ => {
                 let origin = self.origin(u_pick, u_pos)?;
                 let emission = self.emission(origin.ng)?;
@@ -220,6 +232,7 @@ impl Light {
         match self {
             Self::Directional(l) => (targets.shadow_pdf_a(p, l.direction(), None), 1.0),
             Self::Environment(l) => (targets.shadow_pdf_a(p, w, None), l.pdf_li_w()),
+            Self::Sky(l) => (targets.shadow_pdf_a(p, w, None), l.pdf_w(-w)),
             _ => {
                 let pdf_w = self.emission(ng).map_or(0.0, |e| aim::pdf_w(targets, p, &e, w));
                 (self.origin_pdf_a(), pdf_w)
@@ -235,6 +248,7 @@ impl Light {
             Self::Spot(l) => l.power(),
             Self::Directional(l) => l.power(),
             Self::Environment(l) => l.power(),
+            Self::Sky(l) => l.power(),
             Self::Sphere(l) => l.surface().power(l.area()),
             Self::Disk(l) => l.surface().power(l.area()),
             Self::Triangles(l) => l.surface().power(l.area()),
@@ -251,7 +265,7 @@ impl Light {
             // A flat light sees the same height of a target from all its points.
             Self::Disk(l) => any(Emission::Lambert(l.surface(), l.normal()), l.center()),
             Self::Triangles(l) => l.faces().any(|(x, ng)| any(Emission::Lambert(l.surface(), ng), x)),
-            Self::Point(_) | Self::Directional(_) | Self::Environment(_) | Self::Sphere(_) => {
+            Self::Point(_) | Self::Directional(_) | Self::Environment(_) | Self::Sky(_) | Self::Sphere(_) => {
                 !targets.is_empty()
             }
         }
@@ -264,7 +278,7 @@ impl Light {
 
     /// Whether it lies at infinity.
     pub fn is_infinite(&self) -> bool {
-        matches!(self, Self::Directional(_) | Self::Environment(_))
+        matches!(self, Self::Directional(_) | Self::Environment(_) | Self::Sky(_))
     }
 
     /// Bounds of its points; empty for lights at infinity.
@@ -272,7 +286,7 @@ impl Light {
         match self {
             Self::Point(l) => Bounds3::of_points([l.position()]),
             Self::Spot(l) => Bounds3::of_points([l.position()]),
-            Self::Directional(_) | Self::Environment(_) => Bounds3::EMPTY,
+            Self::Directional(_) | Self::Environment(_) | Self::Sky(_) => Bounds3::EMPTY,
             Self::Sphere(l) => l.bounds(),
             Self::Disk(l) => l.bounds(),
             Self::Triangles(l) => l.bounds(),
@@ -285,6 +299,7 @@ impl Light {
         match self {
             Self::Directional(l) => l.preprocess(scene_bounds),
             Self::Environment(l) => l.preprocess(scene_bounds),
+            Self::Sky(l) => l.preprocess(scene_bounds),
             _ => {}
         }
     }
@@ -294,7 +309,7 @@ impl Light {
         match self {
             Self::Point(l) => Some(Origin::at_point(l.position())),
             Self::Spot(l) => Some(Origin::at_point(l.position())),
-            Self::Directional(_) | Self::Environment(_) => None,
+            Self::Directional(_) | Self::Environment(_) | Self::Sky(_) => None,
             Self::Sphere(l) => Some(l.origin(u_pos)),
             Self::Disk(l) => Some(l.origin(u_pos)),
             Self::Triangles(l) => Some(l.origin(u_pick, u_pos)),
@@ -316,7 +331,7 @@ impl Light {
         match self {
             Self::Point(l) => Some(Emission::Uniform(l.intensity())),
             Self::Spot(l) => Some(Emission::Spot(l)),
-            Self::Directional(_) | Self::Environment(_) => None,
+            Self::Directional(_) | Self::Environment(_) | Self::Sky(_) => None,
             Self::Sphere(l) => Some(Emission::Lambert(l.surface(), ng)),
             Self::Disk(l) => Some(Emission::Lambert(l.surface(), ng)),
             Self::Triangles(l) => Some(Emission::Lambert(l.surface(), ng)),

@@ -5,6 +5,7 @@ mod source;
 mod varied;
 
 use bsdf::{Bsdf, BsdfKind};
+use color::Lanes;
 use math::{Frame, Vec3};
 
 use crate::{Medium, SurfaceInteraction};
@@ -79,6 +80,15 @@ impl Material {
                 Some(Medium { material: id, ior: p.ior, priority: p.priority })
             }
             _ => None,
+        }
+    }
+
+    /// What the solid that it bounds absorbs, per unit of length; zero where it bounds none.
+    pub fn absorption(&self) -> Lanes {
+        match &self.kind {
+            MaterialKind::Dielectric(d) => d.absorption,
+            MaterialKind::Principled(p) if p.is_solid => p.absorption,
+            _ => Lanes::ZERO,
         }
     }
 

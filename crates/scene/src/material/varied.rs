@@ -25,6 +25,8 @@ pub struct DielectricMaterial {
     pub facets: Facets,
     /// Thickness (nm; 0: none) and index of a film on the outside.
     pub film: [f32; 2],
+    /// What the inside absorbs, per unit of length.
+    pub absorption: Lanes,
     /// Rank among overlapping dielectrics.
     pub priority: i32,
 }
@@ -225,6 +227,8 @@ pub struct PrincipledMaterial {
     pub film_thickness_nm: FloatSource,
     /// Index of the film.
     pub film_ior: f32,
+    /// What the inside of a solid absorbs, per unit of length.
+    pub absorption: Lanes,
     /// Rank among overlapping dielectrics.
     pub priority: i32,
     /// Whether light may enter a solid through it.

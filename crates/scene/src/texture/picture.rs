@@ -197,6 +197,14 @@ impl ImageTexture {
         [self.width, self.height]
     }
 
+    /// Linear RGB of a pixel, counted row by row from the top.
+    ///
+    /// # Panics
+    /// Where there is no such pixel.
+    pub(crate) fn pixel(&self, index: usize) -> [f32; 3] {
+        self.base.texel(index)
+    }
+
     /// Bytes held.
     pub fn memory_bytes(&self) -> usize {
         let base = match &self.base {

@@ -4,10 +4,10 @@
 #![allow(clippy::unwrap_used)]
 
 use color::Lanes;
-use math::{Bounds3, DVec3, Vec3};
+use math::{Affine3A, Bounds3, DVec3, Transform, Vec3};
 use nephroid_scene::light::{
-    DirectionalLight, DiskLight, EnvironmentLight, LeSample, Light, LightHit, PointLight, Sides, SphereLight,
-    SpotLight, TriangleLight,
+    DirectionalLight, DiskLight, EnvironmentLight, LeSample, Light, LightHit, PointLight, Sides, SkyLight,
+    SphereLight, SpotLight, TriangleLight,
 };
 use nephroid_scene::target::{Target, Targets};
 use sampling::{Domain, Sampler};
@@ -120,6 +120,17 @@ pub fn spot(inner: f32, outer: f32) -> Case {
     Case { name: "spot", light: Light::Spot(light), geometry: Geometry::Nothing }
 }
 
+/// Six by four pixels, one of them bright and some black, turned askew.
+pub fn sky() -> SkyLight {
+    let pixel = |i: usize| match i {
+        9 => [3.0, 2.5, 2.0],
+        3 | 4 | 10 | 16 | 22 => [0.0; 3],
+        _ => [0.3 + 0.1 * (i % 5) as f32, 0.5, 0.2 * (i % 3) as f32],
+    };
+    let turn = Affine3A::from_axis_angle(Vec3::new(0.6, 0.0, 0.8), 0.7);
+    SkyLight::new(6, 4, (0..24).map(pixel).collect(), Transform::new(turn).unwrap()).unwrap()
+}
+
 /// One of each, above the targets.
 pub fn cases() -> Vec<Case> {
     let nothing = |name, light| Case { name, light, geometry: Geometry::Nothing };
@@ -131,6 +142,7 @@ pub fn cases() -> Vec<Case> {
             Light::Directional(DirectionalLight::new(Vec3::new(0.3, -1.0, 0.2), lanes(3.0)).unwrap()),
         ),
         nothing("environment", Light::Environment(EnvironmentLight::new(lanes(0.7)).unwrap())),
+        nothing("sky", Light::Sky(Box::new(sky()))),
         sphere(Vec3::new(0.0, 1.4, 0.0), 0.4, Sides::Front),
         disk(Sides::Front),
         disk(Sides::Both),

@@ -15,7 +15,7 @@ use crate::desc::{
 use crate::diagnostic::{Diagnostic, Report, quoted};
 use crate::nearest::nearest;
 use crate::source::{FileId, Sourced, Span};
-use crate::spec::{Kind, OBJECTS, TEXTURES};
+use crate::spec::{Kind, LIGHTS, OBJECTS, TEXTURES};
 
 /// Checks names, files and geometry of a description from anywhere: a scene file, an importer, code. Ranges of single
 /// values are the reader's business and not checked again.
@@ -292,6 +292,10 @@ impl Checker<'_> {
             report.push(
                 Diagnostic::error("degenerate", format!("the direction of {what} has no length")).at(span),
             );
+        }
+        if let LightKind::Sky { file, transform, .. } = kind {
+            self.file(report, what, file, extensions(LIGHTS.variant("environment")));
+            steps(report, what, transform, span);
         }
         if let LightKind::Point { amount, .. } | LightKind::Spot { amount, .. } = kind
             && let PointAmount::Power { watts, color } = amount

@@ -1,6 +1,9 @@
 //! Lights: surfaces that emit, and lights that are no surfaces.
 
-use super::Triple;
+use std::path::PathBuf;
+
+use super::{TransformSteps, Triple};
+use crate::source::Sourced;
 
 /// How much an area light emits.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,7 +61,7 @@ pub enum PointAmount {
 }
 
 /// What kind of light.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum LightKind {
     /// The same in every direction from a point.
     Point {
@@ -91,6 +94,16 @@ pub enum LightKind {
     Environment {
         /// W/(sr·m²) per channel.
         radiance: Triple,
+    },
+    /// Radiance from infinity, as a picture has it. Columns are longitudes, rows are latitudes from +y down; the middle of the
+    /// picture lies toward +z, its left quarter toward +x.
+    Sky {
+        /// The picture; see [`resolve`](super::SceneDesc::resolve).
+        file: Sourced<PathBuf>,
+        /// Factor on its values, which then are W/(sr·m²).
+        scale: Triple,
+        /// Turns the sky; what moves or scales it does not count.
+        transform: TransformSteps,
     },
 }
 

@@ -133,6 +133,8 @@ pub struct Dielectric {
     pub facets: Facets,
     /// On the outside.
     pub film: ThinFilm,
+    /// What the inside absorbs: σ in e^(−σ·d) per unit of length, ≥ 0.
+    pub absorption: Triple,
     /// Where solids overlap the highest counts; among equals the last entered.
     pub priority: i32,
 }
@@ -146,6 +148,7 @@ impl Default for Dielectric {
             roughness: Roughness::default(),
             facets: Facets::default(),
             film: ThinFilm::default(),
+            absorption: [0.0; 3],
             priority: 0,
         }
     }
@@ -297,6 +300,8 @@ pub struct Principled {
     pub film_thickness_nm: FloatDesc,
     /// Index of the film.
     pub film_ior: f32,
+    /// Of a solid: σ in e^(−σ·d) per unit of length, ≥ 0.
+    pub absorption: Triple,
     /// Rank among overlapping solids, as for dielectrics.
     pub priority: i32,
 }
@@ -320,6 +325,7 @@ impl Default for Principled {
             film: 0.0.into(),
             film_thickness_nm: 400.0.into(),
             film_ior: 1.3,
+            absorption: [0.0; 3],
             priority: 0,
         }
     }

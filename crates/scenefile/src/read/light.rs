@@ -1,6 +1,6 @@
 //! Lights without a surface.
 
-use crate::desc::{Light, LightKind, PointAmount, Triple};
+use crate::desc::{Light, LightKind, PointAmount, TransformStep, Triple};
 use crate::diagnostic::{Diagnostic, Report};
 use crate::document::Node;
 use crate::reader::{Reader, as_table};
@@ -25,12 +25,46 @@ pub(super) fn light(report: &mut Report, what: String, node: &Node) -> Option<Li
                 .zip(irradiance)
                 .map(|(direction, irradiance)| LightKind::Directional { direction, irradiance })
         }
-        Some(_) => r.color(report, "radiance").map(|radiance| LightKind::Environment { radiance }),
+        Some(_) => environment(report, &r),
         None => None,
     };
     // A black environment after a mistake: nothing more is said of it, nor of a scene without light.
     let kind = kind.unwrap_or(LightKind::Environment { radiance: [0.0; 3] });
     Some(Light { name: name.flatten().map(|name| name.value), light_group, kind })
+}
+
+/// Either `radiance`, or a `file` and what goes with it.
+fn environment(report: &mut Report, r: &Reader<'_>) -> Option<LightKind> {
+    let radiance = r.optional_color(report, "radiance");
+    let scale = r.color(report, "scale");
+    let rotation = r.number(report, "rotation");
+    let mut transform = super::object::transform(report, r);
+    let Some(named) = r.given("file") else {
+        if let Some(entry) = ["scale", "rotation", "transform"].iter().find_map(|name| r.given(name)) {
+            let message = format!("`{}` without `file` in {}", entry.key, r.what);
+            report.push(Diagnostic::error("conflict", message).at(entry.key_span));
+            return None;
+        }
+        if r.given("radiance").is_none() {
+            let message = format!("missing `radiance` or `file` in {}", r.what);
+            report.push(
+                Diagnostic::error("missing-key", message)
+                    .at(r.span)
+                    .help("`radiance` is W/(sr m^2) in each channel, `file` a picture of the sky"),
+            );
+        }
+        return radiance?.map(|radiance| LightKind::Environment { radiance });
+    };
+    if let Some(other) = r.given("radiance") {
+        r.conflict(report, other, named);
+        return None;
+    }
+    let file = r.file(report, "file");
+    let degrees = rotation?;
+    if degrees != 0.0 {
+        transform.insert(0, TransformStep::Rotate { axis: [0.0, 1.0, 0.0], degrees });
+    }
+    Some(LightKind::Sky { file: file?, scale: scale?, transform })
 }
 
 /// Either `intensity` or `power` with `color`.

@@ -2,7 +2,7 @@
 
 use crate::desc::{
     CoatedConductor, CoatedDiffuse, Conductor, Dielectric, Facets, Material, MaterialKind, MaterialRef,
-    Metal, Principled, Roughness, ThinDielectric, ThinFilm,
+    Metal, Principled, Roughness, ThinDielectric, ThinFilm, Triple,
 };
 use crate::diagnostic::{Diagnostic, Report};
 use crate::document::{Node, Value};
@@ -92,6 +92,7 @@ fn dielectric(report: &mut Report, r: &Reader<'_>) -> Option<Dielectric> {
     let roughness = roughness(report, r);
     let facets = facets(report, r);
     let film = film(report, r);
+    let absorption = absorption(report, r);
     let priority = r.integer(report, "priority");
     Some(Dielectric {
         ior: ior?,
@@ -100,6 +101,7 @@ fn dielectric(report: &mut Report, r: &Reader<'_>) -> Option<Dielectric> {
         roughness: roughness?,
         facets: facets?,
         film: film?,
+        absorption: absorption?,
         priority: priority?,
     })
 }
@@ -172,6 +174,7 @@ fn principled(report: &mut Report, r: &Reader<'_>) -> Option<Principled> {
     let film = r.float_desc(report, "film");
     let film_thickness_nm = r.float_desc(report, "film_thickness");
     let film_ior = r.number(report, "film_ior");
+    let absorption = absorption(report, r);
     let priority = r.integer(report, "priority");
     Some(Principled {
         base_color: base_color?,
@@ -190,6 +193,7 @@ fn principled(report: &mut Report, r: &Reader<'_>) -> Option<Principled> {
         film: film?,
         film_thickness_nm: film_thickness_nm?,
         film_ior: film_ior?,
+        absorption: absorption?,
         priority: priority?,
     })
 }
@@ -233,6 +237,39 @@ fn metal(report: &mut Report, r: &Reader<'_>) -> Option<Metal> {
             None
         }
     }
+}
+
+/// Either `absorption`, or `attenuation_color` and `attenuation_distance`.
+fn absorption(report: &mut Report, r: &Reader<'_>) -> Option<Triple> {
+    let absorption = r.color(report, "absorption");
+    let left = r.optional_color(report, "attenuation_color");
+    let distance = r.optional_number(report, "attenuation_distance");
+    let pair = ["attenuation_color", "attenuation_distance"].map(|name| r.given(name));
+    if let (Some(a), Some(b)) = (r.given("absorption"), pair[0].or(pair[1])) {
+        r.conflict(report, a, b);
+        return None;
+    }
+    let (color, distance) = match (left?, distance?) {
+        (None, None) => return absorption,
+        (Some(color), Some(distance)) => (color, distance),
+        (color, _) => {
+            let (given, other) = match color {
+                Some(_) => ("attenuation_color", "attenuation_distance"),
+                None => ("attenuation_distance", "attenuation_color"),
+            };
+            let message = format!("`{given}` without `{other}` in {}", r.what);
+            report.push(Diagnostic::error("conflict", message).at(r.given(given)?.key_span));
+            return None;
+        }
+    };
+    let absorption = color.map(|c| (-f64::from(c).ln() / f64::from(distance)).max(0.0) as f32);
+    if !absorption.iter().all(|x| x.is_finite()) {
+        let message = format!("{} is too short: nothing passes", r.label("attenuation_distance"));
+        report
+            .push(Diagnostic::error("out-of-range", message).at(r.given("attenuation_distance")?.node.span));
+        return None;
+    }
+    Some(absorption)
 }
 
 /// Either `roughness` and `anisotropy`, or `alpha` and `alpha_across`.

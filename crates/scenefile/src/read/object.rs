@@ -231,7 +231,7 @@ fn teapot_part(name: &str) -> Option<TeapotPart> {
 }
 
 /// The steps of `transform`: a list, or one step alone. Wrong steps are left out.
-fn transform(report: &mut Report, r: &Reader<'_>) -> TransformSteps {
+pub(super) fn transform(report: &mut Report, r: &Reader<'_>) -> TransformSteps {
     let Some(Entry { node, .. }) = r.given("transform") else { return Vec::new() };
     let what = r.label("transform");
     match &node.value {

@@ -2,7 +2,9 @@
 
 use super::Kind::{Color, Direction, Number, Point};
 use super::Preset::{Absent, Required};
-use super::{Form, Key, Kind, NON_NEGATIVE, POSITIVE, Preset, Range, Section, Switch, Variant, closed, key};
+use super::{
+    ANY, Form, Key, Kind, NON_NEGATIVE, POSITIVE, Preset, Range, Section, Switch, Variant, closed, key,
+};
 
 const POSITION: Key = key("position", Point, "scene units", Required, "Where it is.");
 
@@ -96,8 +98,44 @@ pub const LIGHTS: Section = Section {
             },
             Variant {
                 name: "environment",
-                doc: "The same radiance from every direction at infinity.",
-                keys: &[&[key("radiance", Color(NON_NEGATIVE), "W/(sr m^2)", Required, "Its radiance.")]],
+                doc: "Light from all directions at infinity: the same radiance, or a picture of the sky.",
+                keys: &[&[
+                    key(
+                        "radiance",
+                        Color(NON_NEGATIVE),
+                        "W/(sr m^2)",
+                        Absent("file counts"),
+                        "Its radiance.",
+                    ),
+                    key(
+                        "file",
+                        Kind::File(&["hdr", "exr", "png", "jpg", "jpeg"]),
+                        "",
+                        Absent("radiance counts"),
+                        "A picture in longitude and latitude, +y up; its middle lies toward +z, its left quarter toward +x.",
+                    ),
+                    key(
+                        "scale",
+                        Color(NON_NEGATIVE),
+                        "W/(sr m^2)",
+                        Preset::Number(1.0),
+                        "With file: the radiance that 1 stands for.",
+                    ),
+                    key(
+                        "rotation",
+                        Number(ANY),
+                        "degrees",
+                        Preset::Number(0.0),
+                        "With file: turns the sky about +y, from +z toward +x.",
+                    ),
+                    key(
+                        "transform",
+                        Kind::Transform,
+                        "",
+                        Absent("none"),
+                        "With file: then turns it further; only what turns counts.",
+                    ),
+                ]],
                 example: "[[lights]]\nkind = \"environment\"\nradiance = [0.5, 0.7, 1]\n",
             },
         ],

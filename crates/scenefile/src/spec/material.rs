@@ -97,6 +97,31 @@ const PRIORITY: Key = key(
     "Where solids overlap the highest counts; among equals the last entered.",
 );
 
+/// What the inside of a solid absorbs, in either of two ways to say it.
+const ABSORPTION: &[Key] = &[
+    key(
+        "absorption",
+        Kind::Color(NON_NEGATIVE),
+        "1/scene unit",
+        Number(0.0),
+        "What the inside absorbs: of light, e^(-absorption * distance) is left.",
+    ),
+    key(
+        "attenuation_color",
+        Kind::Color(Range { max: 1.0, open_max: false, ..POSITIVE }),
+        "",
+        Absent("absorption counts"),
+        "What is left of white light after attenuation_distance.",
+    ),
+    key(
+        "attenuation_distance",
+        Kind::Number(POSITIVE),
+        "scene units",
+        Absent("absorption counts"),
+        "The distance after which attenuation_color is left.",
+    ),
+];
+
 /// A number from 0 to 1, or a texture.
 const fn share(name: &'static str, preset: f64, doc: &'static str) -> Key {
     key(name, NumberOrTexture(UNIT), "", Number(preset), doc)
@@ -219,6 +244,7 @@ pub const MATERIALS: Section = Section {
                     ],
                     ROUGH,
                     FILM,
+                    ABSORPTION,
                 ],
                 example: "[materials.glass]\nkind = \"dielectric\"\nior = 1.5\n",
             },
@@ -322,7 +348,7 @@ pub const MATERIALS: Section = Section {
             Variant {
                 name: "principled",
                 doc: "Disney's and OpenPBR's slab: sheen over clear coat over metal or dielectric, which transmits or has a matt base.",
-                keys: &[PRINCIPLED, ROUGH_PRINCIPLED],
+                keys: &[PRINCIPLED, ROUGH_PRINCIPLED, ABSORPTION],
                 example: "[materials.car]\nkind = \"principled\"\nbase_color = [0.6, 0.02, 0.02]\nmetallic = 0.5\nclearcoat = 1\n",
             },
         ],

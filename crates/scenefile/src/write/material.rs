@@ -3,7 +3,7 @@
 use super::value::{Fields, number};
 use crate::desc::{
     ColorSpace, Facets, Material, MaterialKind, Metal, Principled, Roughness, Texture, TextureFilter,
-    ThinFilm, Wrap,
+    ThinFilm, Triple, Wrap,
 };
 use crate::spec;
 
@@ -77,6 +77,7 @@ fn kind_fields(f: &mut Fields, kind: &MaterialKind) {
             roughness(f, &m.roughness);
             facets(f, m.facets);
             film(f, &m.film);
+            absorption(f, m.absorption);
             f.integer("priority", m.priority);
         }
         MaterialKind::Conductor(m) => {
@@ -143,6 +144,7 @@ fn principled(f: &mut Fields, m: &Principled) {
     f.float("film", &m.film);
     f.float("film_thickness", &m.film_thickness_nm);
     f.number("film_ior", m.film_ior);
+    absorption(f, m.absorption);
     f.integer("priority", m.priority);
 }
 
@@ -185,4 +187,8 @@ fn facets(f: &mut Fields, facets: Facets) {
 fn film(f: &mut Fields, film: &ThinFilm) {
     f.number("film_thickness", film.thickness_nm);
     f.number("film_ior", film.ior);
+}
+
+fn absorption(f: &mut Fields, absorption: Triple) {
+    f.color("absorption", &absorption.into());
 }

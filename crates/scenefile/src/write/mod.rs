@@ -441,6 +441,12 @@ fn light_fields(light: &Light) -> Fields {
             f = fields(&spec::LIGHTS, Some("environment"));
             f.triple("radiance", *radiance);
         }
+        LightKind::Sky { file, scale, transform: steps } => {
+            f = fields(&spec::LIGHTS, Some("environment"));
+            f.text("file", &file.to_string_lossy());
+            f.color("scale", &(*scale).into());
+            transform(&mut f, steps);
+        }
     }
     if let Some(name) = &light.name {
         f.first("name", quote(name));

@@ -3,7 +3,7 @@
 
 use bsdf::{BsdfKind, Lobes, TransportMode};
 use math::Vec3;
-use nephroid_transport::{PathVertex, Subpath, Vertex};
+use nephroid_transport::{PathVertex, Sides, Subpath, Vertex};
 use sampling::Sampler;
 use scene::light::{LeSample, LightHit};
 use scene::{LightId, Scene};
@@ -120,7 +120,8 @@ impl FullPath {
             Some(hit) if hit.light == Some(id) => {
                 let bsdf = scene.bsdf(&hit, -li.wi, 1.0, 0.0);
                 let hit = scene::SurfaceInteraction { p: li.p, ..hit };
-                light.surface = Some(Vertex { hit, bsdf, wo: -li.wi, footprint: 0.0 });
+                light.surface =
+                    Some(Vertex { hit, bsdf, wo: -li.wi, footprint: 0.0, sides: Sides::default() });
             }
             Some(_) if li.distance.is_infinite() => return None,
             _ => {}

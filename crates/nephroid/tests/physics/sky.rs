@@ -1,0 +1,77 @@
+//! Light from a picture of the sky.
+
+use std::path::Path;
+
+use film::encode_exr_rgb;
+use nephroid::SceneDesc;
+use nephroid::desc::{IntegratorKind, Light, LightKind, Material, Object, TransformStep};
+
+use crate::support::*;
+
+/// Adds a sky of `width` × `width`/2 pixels, turned by `degrees` about +y.
+fn add_sky(
+    desc: &mut SceneDesc,
+    name: &str,
+    width: usize,
+    degrees: f32,
+    pixel: impl Fn(usize, usize) -> [f32; 3],
+) {
+    let pixels: Vec<[f32; 3]> = (0..width * width / 2).map(|i| pixel(i % width, i / width)).collect();
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.exr"));
+    std::fs::write(&path, encode_exr_rgb(width, width / 2, &pixels, &[]).unwrap()).unwrap();
+    let transform = vec![TransformStep::Rotate { axis: [0.0, 1.0, 0.0], degrees }];
+    desc.lights.push(Light::from(LightKind::Sky { file: path.into(), scale: [2.0; 3], transform }).into());
+}
+
+#[test]
+fn the_middle_is_toward_z_and_the_left_quarter_toward_x() {
+    for (toward, degrees, expected) in [
+        ([0.0, 0.0, 1.0], 0.0, 7.0),
+        ([1.0, 0.0, 0.0], 0.0, 3.0),
+        ([-1.0, 0.0, 0.0], 0.0, 11.0),
+        ([1.0, 0.0, 0.0], 90.0, 7.0),
+        ([0.0, 1.0, 0.0], 0.0, 100.0),
+        ([0.0, -1.0, 0.0], 0.0, 7.0),
+    ] {
+        let mut desc = scene_of(look([0.0; 3], toward, 0.1), 2, vec![]);
+        // Columns count up from the left; the topmost row is bright, the lowest even.
+        add_sky(&mut desc, "compass", 8, degrees, |x, y| match y {
+            0 => [50.0; 3],
+            3 => [3.5; 3],
+            _ => [x as f32; 3],
+        });
+        let found = brightness(&desc, PATH, 2, 1).mean;
+        assert!((found - expected).abs() < 0.02 * expected, "{toward:?} {degrees}: {found} {expected}");
+    }
+}
+
+/// A bright patch in a blue sky, by every integrator: it is found by light sampling, by rays and by photons alike.
+#[test]
+fn a_sky_with_a_bright_patch_agrees_with_path() {
+    let ball = |x: f32, material: Material| Object::new(sphere([x, -0.6, 0.0], 0.4), material);
+    let objects = vec![
+        Object::new(ground(-1.0, 1.5), grey(0.5)),
+        ball(-0.9, Material::conductor("gold", 0.5)),
+        ball(0.0, grey(0.7)),
+        ball(0.9, Material::plastic(0.5, 0.4)),
+    ];
+    let mut desc = scene_of(look([0.0, 0.4, 2.9], [0.0, -0.6, 0.0], 50.0), 16, objects);
+    desc.photon_map.photons = 40_000;
+    desc.photon_map.caustic_photons = 40_000;
+    desc.sppm.photons = Some(16_000);
+    desc.sppm.radius = Some(0.03);
+    desc.sppm.alpha = 1.0;
+    desc.vcm.light_paths = Some(512);
+    desc.vcm.radius = Some(0.02);
+    desc.vcm.alpha = 1.0;
+    add_sky(&mut desc, "patch", 32, 40.0, |x, y| match (x, y) {
+        (18, 4) => [200.0, 150.0, 100.0],
+        (_, 0..8) => [0.3, 0.5, 1.0],
+        _ => [0.0; 3],
+    });
+    let path = brightness(&desc, PATH, 12, 64);
+    for integrator in [PHOTON_MAP, IntegratorKind::Sppm, IntegratorKind::Vcm, IntegratorKind::Auto] {
+        let found = brightness(&desc, integrator, 12, 32);
+        assert_same_within(integrator.name(), &found, &path, 0.01, 1.05);
+    }
+}
