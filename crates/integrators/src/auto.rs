@@ -10,7 +10,7 @@ use sampling::{Domain, Sampler};
 use scene::Scene;
 use transport::{
     CausticJob, EyeChain, LightLayer, PathClass, PathEnd, Vertex, Walk, direct_against, direct_in_chain,
-    emission_in_chain, escaped_in_chain, merge_within,
+    emission_in_chain, escaped_in_chain, is_hidden, merge_within,
 };
 
 use crate::caustics::{Caustics, replay_caustic_job, trace_caustic_job};
@@ -220,7 +220,7 @@ impl Merging<'_> {
         // The events before, and the one here, count on the whole path.
         let most = max_depth - walk.depth - 1;
         let mut sum = S::Sum::default();
-        let count = merge_within(self.map, vertex, radius, KERNEL, |photon, radiance| {
+        let within = merge_within(self.map, vertex, radius, KERNEL, |photon, radiance| {
             if u32::from(photon.depth()) > most {
                 return;
             }
@@ -228,13 +228,13 @@ impl Merging<'_> {
             let rivals = self.rivals[photon.slot as usize] * pdf_w * per_acceptance;
             sum.add(Source::of(photon), radiance * (1.0 / (1.0 + rivals)));
         });
-        if count == 0 {
+        if within.count == 0 || is_hidden(walk.scene(), self.map, vertex, &within) {
             return;
         }
         let layer = class.scattered(false).scattered(true).layer();
         sink.add_sum(layer, Technique::Merge, sum.map(|sum| walk.throughput * sum));
         if layer == LightLayer::Caustic {
-            sink.density(count as f32 / (std::f32::consts::PI * radius * radius));
+            sink.density(within.count as f32 / (std::f32::consts::PI * radius * radius));
         }
     }
 }

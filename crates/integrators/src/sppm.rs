@@ -17,7 +17,7 @@ use sampling::Sampler;
 use scene::Scene;
 use transport::{
     LightLayer, PathClass, PathEnd, PhotonJob, PhotonPaths, Vertex, Walk, direct, direct_against,
-    emission_at, emission_escaped, merge_within,
+    emission_at, emission_escaped, is_hidden, merge_within,
 };
 
 use crate::maps::StoredMap;
@@ -231,19 +231,19 @@ impl Eye<'_> {
         // The events before, and the one here, count on the whole path.
         let most = self.max_depth - walk.depth - 1;
         let mut sums: [S::Sum; 3] = Default::default();
-        let count = merge_within(map, vertex, radius, KERNEL, |photon, radiance| {
+        let within = merge_within(map, vertex, radius, KERNEL, |photon, radiance| {
             let depth = u32::from(photon.depth());
             if depth <= most {
                 let flags = photon.flags();
                 sums[layer_of(depth, flags)].add(Source::of_flags(flags), radiance);
             }
         });
-        if count > 0 {
+        if within.count > 0 && !is_hidden(walk.scene(), map, vertex, &within) {
             let layers = [LightLayer::Direct, LightLayer::Caustic, LightLayer::Indirect];
             for (layer, sum) in layers.into_iter().zip(sums) {
                 sink.add_sum(layer, Technique::Merge, sum.map(|sum| walk.throughput * sum));
             }
-            sink.density(count as f32 / (std::f32::consts::PI * radius * radius));
+            sink.density(within.count as f32 / (std::f32::consts::PI * radius * radius));
         }
     }
 }

@@ -182,6 +182,15 @@ impl PhotonMap {
         &self.tree
     }
 
+    /// Position and normal of the photon in `slot`, the normal as it was packed.
+    ///
+    /// # Panics
+    /// Where there is no such slot.
+    #[inline]
+    pub fn place(&self, slot: u32) -> (Vec3, Vec3) {
+        (self.tree.position(slot), self.normal(slot))
+    }
+
     /// The photon in `slot`, with direction and normal as they were packed.
     ///
     /// # Panics

@@ -15,6 +15,7 @@ mod observe;
 mod path_class;
 mod photon;
 mod project;
+mod sight;
 mod subpath;
 mod walk;
 
@@ -28,7 +29,7 @@ pub use direct::{
 pub use emit::{EmittedPhoton, emit, emit_mixed, emit_toward_targets, emit_toward_targets_with};
 pub use light_densities::LightDensities;
 pub use light_path::{LightClass, LightVertex, observe_light_path, trace_light_path};
-pub use merge::{Lookup, Merged, irradiance, merge, merge_each, merge_within, nearest_irradiance};
+pub use merge::{Lookup, Merged, Within, irradiance, merge, merge_each, merge_within, nearest_irradiance};
 pub use mis::{
     Connections, End, Scattering, SubpathMis, connection_weight, direct_weight, emission_weight,
     projection_weight,
@@ -37,5 +38,6 @@ pub use observe::{Observer, PathEnd};
 pub use path_class::{LightLayer, PathClass};
 pub use photon::{PhotonBalance, PhotonBatch, PhotonJob, PhotonPaths, observe_photon, trace_photons};
 pub use project::{Projection, is_seen, project};
+pub use sight::is_hidden;
 pub use subpath::{EyeEnd, PathVertex, Subpath};
 pub use walk::{ENDLESS_DEPTH, Scattered, Sides, Vertex, Walk};

@@ -123,8 +123,17 @@ pub fn merge_each(
     found
 }
 
-/// The same estimate with a given radius: calls `f` with each photon and the radiance that it adds toward `vertex.wo`,
-/// and returns their number. On both sides where the surface lets light pass.
+/// Photons within a given radius.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Within {
+    /// How many.
+    pub count: usize,
+    /// One of them, each with the same chance, by its place in the map; 0 where there is none.
+    pub witness: u32,
+}
+
+/// The same estimate with a given radius: calls `f` with each photon and the radiance that it adds toward
+/// `vertex.wo`. On both sides where the surface lets light pass.
 #[inline]
 pub fn merge_within(
     map: &PhotonMap,
@@ -132,16 +141,23 @@ pub fn merge_within(
     radius: f32,
     kernel: Kernel,
     mut f: impl FnMut(&PhotonView<'_>, Lanes),
-) -> usize {
+) -> Within {
     let receiver = Receiver::new(vertex);
-    let front = query(vertex, radius, kernel);
-    let count = map.gather(&front, |photon, weight| f(photon, receiver.reflected(photon, weight)));
-    match query_behind(vertex, &front) {
-        None => count,
-        Some(behind) => {
-            count + map.gather(&behind, |photon, weight| f(photon, receiver.reflected(photon, weight)))
+    let (mut witness, mut highest) = (0, 0);
+    let mut show = |photon: &PhotonView<'_>, weight: f32| {
+        // Multiples of the golden section scatter evenly over the numbers (Knuth 1998, §6.4).
+        let rank = photon.slot.wrapping_add(1).wrapping_mul(0x9e37_79b9);
+        if rank >= highest {
+            (witness, highest) = (photon.slot, rank);
         }
+        f(photon, receiver.reflected(photon, weight));
+    };
+    let front = query(vertex, radius, kernel);
+    let mut count = map.gather(&front, &mut show);
+    if let Some(behind) = query_behind(vertex, &front) {
+        count += map.gather(&behind, &mut show);
     }
+    Within { count, witness }
 }
 
 /// |cos to the shading normal| / |cos to the geometric normal|.

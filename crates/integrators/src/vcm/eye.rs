@@ -8,8 +8,8 @@ use sampling::{Domain, Sampler, Streams};
 use scene::LightId;
 use transport::{
     Connections, Emission, LightClass, LightLayer, LightVertex, MergingWeights, PathClass, PathEnd,
-    PathVertex, Subpath, connect, connect_light, emission_against_all, escape_against_all, merge_within,
-    trace_light_path,
+    PathVertex, Subpath, connect, connect_light, emission_against_all, escape_against_all, is_hidden,
+    merge_within, trace_light_path,
 };
 
 use super::{Merging, Plan};
@@ -72,6 +72,7 @@ impl Tracer for Eye<'_> {
             let specular = !at.vertex.bsdf.has_diffuse();
             let mut lobes = Lobes::ALL;
             if !at.vertex.bsdf.is_delta_only() {
+                let first = merging.is_none();
                 let (radius, eta) = *merging.get_or_insert_with(|| {
                     let radius = plan.radius.at(at.vertex.footprint);
                     (radius, plan.eta(radius))
@@ -81,7 +82,8 @@ impl Tracer for Eye<'_> {
                     self.join(&path, &reached, &mut lights, &mut sampler, sink);
                 }
                 if plan.merging != Merging::Never && at.is_merged() {
-                    self.merge(&path, &reached, sink);
+                    let sight = if first { Sight::Asked } else { Sight::Granted };
+                    self.merge(&path, &reached, sight, sink);
                     if plan.merging == Merging::First {
                         lobes = Lobes::DELTA;
                     }
@@ -93,6 +95,14 @@ impl Tracer for Eye<'_> {
             class = class.scattered(specular || scattered.lobes.contains(Lobes::SPECULAR));
         }
     }
+}
+
+/// Whether a wall between a vertex and its photons is looked for: at the first alone, for where the camera does not
+/// see a leak of light as such, that is not worth a ray.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Sight {
+    Asked,
+    Granted,
 }
 
 /// The light path that an eye path is joined to, traced when it is needed.
@@ -157,14 +167,14 @@ impl Eye<'_> {
 
     /// Light that photons bring.
     #[inline]
-    fn merge(&self, path: &Subpath<'_>, here: &Reached<'_>, sink: &mut impl Sink) {
+    fn merge(&self, path: &Subpath<'_>, here: &Reached<'_>, sight: Sight, sink: &mut impl Sink) {
         let Some(stored) = &self.maps.merging else { return };
         let Reached { at, class, radius, eta } = *here;
         let paths = &self.maps.light_side.paths;
         let most = self.plan.max_depth - path.walk.depth - 1;
         let weights = MergingWeights::new(at, eta);
         let mut sums = Sums::new(class);
-        let count = merge_within(&stored.map, &at.vertex, radius, Kernel::Constant, |photon, radiance| {
+        let within = merge_within(&stored.map, &at.vertex, radius, Kernel::Constant, |photon, radiance| {
             let light = &paths[photon.slot as usize];
             if u32::from(light.depth) > most {
                 return;
@@ -173,44 +183,57 @@ impl Eye<'_> {
                 Merging::First => 1.0,
                 _ => weights.weight(&light.mis, photon.direction()),
             };
-            if light.light != sums.light {
-                sums.give(path.walk.throughput, sink);
-                sums.light = light.light;
-            }
-            sums.add(light.class, radiance * weight);
+            sums.add(light.light, light.class, radiance * weight);
         });
-        sums.give(path.walk.throughput, sink);
-        if path.walk.depth == 0 && count > 0 {
-            sink.density(count as f32 / (PI * radius * radius));
+        if sight == Sight::Granted || !is_hidden(path.scene(), &stored.map, &at.vertex, &within) {
+            sums.give(path.walk.throughput, sink);
+        }
+        if path.walk.depth == 0 && within.count > 0 {
+            sink.density(within.count as f32 / (PI * radius * radius));
         }
     }
 }
 
-/// Photons of one light, by their paths' classes.
+/// Photons by their lights and their paths' classes.
 struct Sums {
     layers: [LightLayer; 6],
     light: LightId,
     sums: [Lanes; 6],
+    /// Those of other lights before.
+    before: Vec<(LightId, [Lanes; 6])>,
 }
 
 impl Sums {
     fn new(eye: PathClass) -> Self {
-        Self { layers: LightClass::layers_after(eye), light: LightId(0), sums: [Lanes::ZERO; 6] }
+        Self {
+            layers: LightClass::layers_after(eye),
+            light: LightId(0),
+            sums: [Lanes::ZERO; 6],
+            before: Vec::new(),
+        }
     }
 
     #[inline]
-    fn add(&mut self, class: LightClass, radiance: Lanes) {
+    fn add(&mut self, light: LightId, class: LightClass, radiance: Lanes) {
+        if light != self.light {
+            let sums = std::mem::replace(&mut self.sums, [Lanes::ZERO; 6]);
+            if sums.iter().any(|sum| !sum.is_zero()) {
+                self.before.push((self.light, sums));
+            }
+            self.light = light;
+        }
         self.sums[class.index()] += radiance;
     }
 
     /// Hands over what there is.
     #[inline]
-    fn give(&mut self, throughput: Lanes, sink: &mut impl Sink) {
-        for (sum, layer) in self.sums.iter_mut().zip(self.layers) {
-            if !sum.is_zero() {
-                let origin = Origin { layer, technique: Technique::Merge, source: Source::Light(self.light) };
-                sink.add(origin, throughput * *sum);
-                *sum = Lanes::ZERO;
+    fn give(&self, throughput: Lanes, sink: &mut impl Sink) {
+        for (light, sums) in self.before.iter().chain([&(self.light, self.sums)]) {
+            for (sum, layer) in sums.iter().zip(self.layers) {
+                if !sum.is_zero() {
+                    let origin = Origin { layer, technique: Technique::Merge, source: Source::Light(*light) };
+                    sink.add(origin, throughput * *sum);
+                }
             }
         }
     }
