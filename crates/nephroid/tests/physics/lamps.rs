@@ -8,7 +8,7 @@ use crate::support::*;
 use crate::window::Window;
 
 /// Mean over columns 110 to 145 and rows 51 to 86 of `globe`, by channel, as the reference has it, and its standard error.
-const WINDOW: [f64; 3] = [3.9438, 2.7690, 0.9165];
+pub const WINDOW: [f64; 3] = [3.9438, 2.7690, 0.9165];
 const WINDOW_ERROR: [f64; 3] = [0.0023, 0.0016, 0.0005];
 
 /// Pure E S* L paths are not counted among what merging or light sampling could have found. Statistics, the reference's and
@@ -39,7 +39,7 @@ fn trap_the_lamp_seen_through_its_globe_has_its_full_radiance_in_photon_map() {
     }
 }
 
-fn globe() -> (SceneDesc, Window) {
+pub fn globe() -> (SceneDesc, Window) {
     let desc = load(&root().join("scenes/arena/globe.toml"), &[]).desc.unwrap();
     (desc, Window::new(110.0..146.0, 51.0..87.0, 64))
 }

@@ -13,10 +13,14 @@ mod determinism;
 mod furnace;
 mod lamps;
 mod layers;
+#[cfg(feature = "long")]
+mod long;
 mod materials;
 mod nephroid_curve;
 mod nested;
+mod noise;
 mod oracle;
+mod partition;
 mod replay;
 mod sky;
 mod sppm;

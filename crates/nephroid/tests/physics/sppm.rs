@@ -104,7 +104,7 @@ fn agrees_with_path_in_a_room_of_all_materials() {
     ]);
     let path = brightness(&desc, PATH, 16, 96);
     for direct in DIRECT {
-        let sppm = brightness(&with(&desc, 10_000, 0.02, direct), SPPM, 16, 32);
+        let sppm = brightness(&with(&desc, 10_000, 0.02, direct), SPPM, 16, 28);
         assert_same(&format!("{direct:?}"), &sppm, &path, BLUR);
     }
 }
@@ -228,7 +228,7 @@ fn aimed_photons_leave_energies_as_they_are() {
         .chain(lights.into_iter().map(|(name, light)| (name, scene(None, Some(light)))));
     let mut quieter = 0;
     for (name, scene) in scenes {
-        let all = |paths| flux(&scene, paths, 40_000, 24, u32::MAX, |_| true);
+        let all = |paths| flux(&scene, paths, 40_000, 16, u32::MAX, |_| true);
         assert_same(name, &all(PhotonPaths::Mixed), &all(PhotonPaths::Global), 0.0);
         let tiny = |paths| {
             let caustic = |p: &photons::Photon| p.flags.contains(photons::PhotonFlags::CAUSTIC);

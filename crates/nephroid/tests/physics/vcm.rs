@@ -1,12 +1,11 @@
 //! Vertex connection and merging, and each of its techniques alone, against `path` where both see the light, and against
 //! closed forms.
 
-use film::{ExrOptions, encode_exr};
 use nephroid::desc::{
-    CameraKind, Emission, FilterKind, IntegratorKind, Light, LightKind, Material, Object, PointAmount,
-    Render, Shape, VcmTechniques,
+    CameraKind, Emission, FilterKind, IntegratorKind, Light, LightKind, Material, Object, PointAmount, Shape,
+    VcmTechniques,
 };
-use nephroid::{Control, Film, Job, Layer, SceneDesc, Session, compile};
+use nephroid::{Film, Layer, SceneDesc};
 use testkit::Moments;
 
 use crate::support::*;
@@ -246,24 +245,4 @@ fn connections_across_invisible_boundaries_have_no_share() {
             "{techniques:?}: {found:?}"
         );
     }
-}
-
-#[test]
-fn bytes_do_not_depend_on_threads() {
-    let exr = |threads: usize, passes: std::ops::Range<u64>| {
-        let mut desc = nephroid::load(&root().join("scenes/arena/box-spheres.toml"), &[]).desc.unwrap();
-        desc.film.size = [40, 24];
-        desc.film.filter = FilterKind::Mitchell;
-        desc.render = Render { integrator: VCM, seed: 5, ..desc.render };
-        let scene = compile(&desc, threads).unwrap().scene;
-        let job = Job { passes, ..Job::new(&desc, scene).unwrap() };
-        let mut session = Session::new(job, threads).unwrap();
-        session.run(&mut |_| Control::Continue).unwrap();
-        encode_exr(session.film(), &ExrOptions::default()).unwrap()
-    };
-    let one = exr(1, 0..2);
-    for threads in [2, 3, 7, 1] {
-        assert!(one == exr(threads, 0..2), "{threads} threads");
-    }
-    assert!(one != exr(2, 1..3), "the pass counts");
 }
