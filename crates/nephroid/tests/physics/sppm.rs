@@ -124,7 +124,7 @@ fn layers_agree_with_path_under_a_glass_sphere() {
         let films = runs(&desc, integrator, 16, passes, |film| layers.map(|layer| mean(film, layer)));
         (0..2).map(|i| Moments::of(films.iter().map(|m| m[i]))).collect()
     };
-    for (layer, (sppm, path)) in layers.iter().zip(means(SPPM, 128).iter().zip(&means(PATH, 480))) {
+    for (layer, (sppm, path)) in layers.iter().zip(means(SPPM, 240).iter().zip(&means(PATH, 480))) {
         assert_same(&format!("{layer:?}"), sppm, path, 0.003);
     }
 }
