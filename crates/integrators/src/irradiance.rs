@@ -61,7 +61,8 @@ fn covered(scene: &Scene, at: &Photon, radius: f32, kernel: Kernel, turn: f32) -
         all += weight;
         let down = Ray { origin: lifted + step, direction: at.normal * (-2.0 * height), t_max: 1.0 };
         let blocked = scene.occluded(&Ray { origin: lifted, direction: step, t_max: 1.0 });
-        if !blocked && scene.intersect(&down).is_some_and(|s| s.ng.dot(at.normal).abs() >= MIN_NORMAL_COSINE)
+        if !blocked
+            && scene.intersect_possible(&down).is_some_and(|s| s.ng.dot(at.normal).abs() >= MIN_NORMAL_COSINE)
         {
             on += weight;
         }

@@ -1,6 +1,7 @@
 //! The compiled scene: immutable, `Send + Sync`, addressed by ids. World space throughout.
 
 pub mod camera;
+mod chance;
 mod compile;
 mod interaction;
 pub mod light;
@@ -17,7 +18,7 @@ pub use interaction::{LightId, SurfaceInteraction};
 pub use light::Light;
 pub use material::{
     CoatedConductorMaterial, CoatedDiffuseMaterial, ColorSource, ConductorMaterial, DielectricMaterial,
-    FloatSource, Material, MaterialId, MaterialKind, PrincipledMaterial, RoughnessSource,
+    FloatSource, Material, MaterialId, MaterialKind, Opacity, PrincipledMaterial, RoughnessSource,
 };
 pub use medium::{Boundary, Medium, MediumStack};
 pub use scene::{Scene, Summary};

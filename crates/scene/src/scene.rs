@@ -50,6 +50,8 @@ pub struct Scene {
     pub(crate) global_picker: LightPicker,
     pub(crate) caustic_picker: LightPicker,
     pub(crate) targets: Targets,
+    /// Whether any surface is there by chance.
+    pub(crate) by_chance: bool,
     /// Whether any solid absorbs.
     pub(crate) absorbs: bool,
     pub(crate) camera: Camera,
@@ -61,9 +63,15 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// The first surface that a ray meets.
+    /// The first surface that a ray meets. Where opacity or a mix leaves that to chance, a hash of the place decides.
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<SurfaceInteraction> {
+        if self.by_chance { self.intersect_by_chance(ray) } else { self.first(ray) }
+    }
+
+    /// The first surface, with the material that the object was given.
+    #[inline]
+    pub(crate) fn first(&self, ray: &Ray) -> Option<SurfaceInteraction> {
         // A copy, so that the caller's ray need not lie in memory.
         let ray = &{ *ray };
         let hit = self.bvh.closest(ray)?;
@@ -82,7 +90,7 @@ impl Scene {
     /// Whether anything lies on the ray.
     #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
-        self.bvh.occluded(ray)
+        if self.by_chance { self.intersect_by_chance(ray).is_some() } else { self.bvh.occluded(ray) }
     }
 
     /// The BSDF at `hit`, seen from `wo`. `eta`: relative index (inside over outside) of a dielectric boundary, from

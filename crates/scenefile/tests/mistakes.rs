@@ -177,7 +177,7 @@ power = 2
                |
             14 | [materials.red]
                | ^^^^^^^^^^^^^^^
-               = help: it is "diffuse", "phong", "mirror", "dielectric", "conductor", "plastic", "rough-diffuse", "diffuse-transmission", "sheen", "thin-dielectric", "coated-diffuse", "coated-conductor" or "principled"
+               = help: it is "diffuse", "phong", "mirror", "dielectric", "conductor", "plastic", "rough-diffuse", "diffuse-transmission", "sheen", "thin-dielectric", "coated-diffuse", "coated-conductor", "principled" or "mix"
 
             error[unknown-key]: unknown key `roughness` in material `shiny`
               --> box.toml:18:1

@@ -112,7 +112,7 @@ impl Dice {
     }
 
     fn kind(&mut self) -> MaterialKind {
-        match self.below(13) {
+        match self.below(14) {
             0 => MaterialKind::Diffuse { color: self.color() },
             1 => {
                 let (diffuse, exponent) = (self.unit() * 0.5, self.positive().min(1e6));
@@ -169,6 +169,12 @@ impl Dice {
                 depth: self.unit(),
                 facets: self.facets(),
             }),
+            12 => MaterialKind::Mix {
+                a: Material::diffuse(self.color()).into(),
+                b: Material::from(MaterialKind::Sheen { color: self.color(), roughness: self.float() })
+                    .into(),
+                amount: self.float(),
+            },
             11 => MaterialKind::Principled(Box::new(self.principled())),
             _ => MaterialKind::Plastic { color: self.color(), ior: self.ior(), roughness: self.roughness() },
         }
@@ -205,6 +211,8 @@ impl Dice {
     fn material(&mut self) -> Material {
         let kind = self.kind();
         Material {
+            opacity: self.float(),
+            opacity_cutoff: self.coin().then(|| self.unit()),
             normal_map: self.coin().then(|| "plain".into()),
             normal_strength: self.unit() * 2.0,
             two_sided: !kind.has_two_sided() || self.coin(),

@@ -1,6 +1,6 @@
 use std::ops::Range;
 
-use bsdf::Lobes;
+use bsdf::{BsdfKind, Lobes};
 use color::Lanes;
 use photons::{Photon, PhotonFlags};
 use sampling::{Domain, Sampler, Streams};
@@ -216,6 +216,6 @@ fn wanted(paths: PhotonPaths, diffuse_events: u32, specular_events: u32) -> bool
 pub(crate) fn photon(walk: &Walk<'_>, vertex: &Vertex, flags: PhotonFlags) -> Photon {
     let wi = vertex.wo;
     let normal = if wi.dot(vertex.hit.ng) < 0.0 { -vertex.hit.ng } else { vertex.hit.ng };
-    let power: Lanes = walk.throughput;
+    let power: Lanes = walk.throughput / walk.scene().presence(&vertex.hit, BsdfKind::has_diffuse);
     Photon { position: vertex.hit.p, direction: wi, normal, power, depth: walk.depth.min(255) as u8, flags }
 }

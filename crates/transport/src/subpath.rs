@@ -1,4 +1,4 @@
-use bsdf::{Bsdf, Lobes, TransportMode};
+use bsdf::{Bsdf, BsdfKind, Lobes, TransportMode};
 use math::Vec3;
 use sampling::Sampler;
 use scene::light::LeSample;
@@ -34,7 +34,14 @@ impl PathVertex {
     /// Whether photons are merged there: on surfaces that scatter by more than delta lobes, and to one side only.
     #[inline]
     pub fn is_merged(&self) -> bool {
-        is_merged(&self.vertex.bsdf)
+        is_merged(self.vertex.bsdf.kind())
+    }
+
+    /// Chance that a path which comes here meets a surface on which photons are merged: their flux is over it, as the
+    /// eye path that they are merged with takes the chance again.
+    #[inline]
+    pub fn presence(&self, scene: &Scene) -> f32 {
+        scene.presence(&self.vertex.hit, is_merged)
     }
 }
 
@@ -147,12 +154,12 @@ pub(crate) fn survival(bsdf: &Bsdf, w: Vec3) -> f32 {
 /// 1 where photons are merged, else 0.
 #[inline]
 pub(crate) fn merging(bsdf: &Bsdf) -> f64 {
-    if is_merged(bsdf) { 1.0 } else { 0.0 }
+    if is_merged(bsdf.kind()) { 1.0 } else { 0.0 }
 }
 
 /// Whether photons are merged: on surfaces that scatter by more than delta lobes, and to one side only.
 #[inline]
-fn is_merged(bsdf: &Bsdf) -> bool {
+fn is_merged(bsdf: &BsdfKind) -> bool {
     !bsdf.is_delta_only() && !bsdf.lobes().contains(Lobes::TRANSMISSION)
 }
 

@@ -140,7 +140,7 @@ impl Batch {
                 position: at.vertex.hit.p,
                 direction: wi,
                 normal: if wi.dot(ng) < 0.0 { -ng } else { ng },
-                power: flux * (1.0 / plan.count as f32),
+                power: flux * (1.0 / (plan.count as f32 * at.presence(scene))),
                 depth: depth.min(255) as u8,
                 flags: PhotonFlags::NONE,
             });

@@ -161,6 +161,44 @@ fn the_principled_slab() {
     agree("principled", &desc, 24);
 }
 
+/// Half of the rays pass a surface of opacity 1/2, and a mix is the mean of its parts.
+#[test]
+fn opacity_and_mixes_are_means() {
+    let seen = |material: Material| {
+        let objects = vec![
+            Object::new(disk([0.0; 3], [0.0, 0.0, 1.0], 1.0), material),
+            lamp(disk([0.0, 0.0, -3.0], [0.0, 0.0, 1.0], 9.0), 1.0),
+        ];
+        let desc = scene_of(look([0.0, 0.0, 4.0], [0.0, 0.0, 0.0], 5.0), 32, objects);
+        brightness(&desc, PATH, 12, 32)
+    };
+    let film = Material { opacity: 0.3.into(), ..grey(0.0) };
+    assert_mean("opacity", &seen(film.clone()), 0.7, 0.0);
+    let cut = Material { opacity_cutoff: Some(0.3), ..film.clone() };
+    assert_eq!(seen(cut).mean, 0.0);
+    let gone = Material { opacity_cutoff: Some(0.31), ..film.clone() };
+    assert!((seen(gone).mean - 1.0).abs() < 1e-6);
+    let mix = MaterialKind::Mix { a: film.into(), b: grey(0.0).into(), amount: 0.5.into() };
+    assert_mean("mix", &seen(mix.into()), 0.35, 0.0);
+}
+
+#[test]
+fn things_that_are_there_by_chance() {
+    let rust = MaterialKind::Mix {
+        a: Material::conductor("gold", 0.5).into(),
+        b: grey(0.6).into(),
+        amount: 0.6.into(),
+    };
+    let gauze = Material { opacity: 0.5.into(), ..grey(0.8) };
+    let jelly = MaterialKind::Mix {
+        a: Material::plastic(0.6, 0.5).into(),
+        b: Material { opacity: 0.6.into(), ..grey(0.3) }.into(),
+        amount: 0.5.into(),
+    };
+    let desc = room(vec![ball(-0.8, 0.0, rust), pane(gauze), ball(0.6, 0.3, jelly)]);
+    agree("by chance", &desc, 16);
+}
+
 /// Beer–Lambert in closed form: a lamp seen through two units of an absorber of index 1, by every integrator.
 #[test]
 fn a_lamp_behind_an_absorber_is_dimmed_exponentially() {

@@ -9,9 +9,11 @@ use scenefile::{Diagnostic, Sourced};
 use crate::texture::{Checker, Encoding, Filter, ImageTexture, UvMap, Wrap};
 use crate::{
     CoatedConductorMaterial, CoatedDiffuseMaterial, ColorSource, ConductorMaterial, DielectricMaterial,
-    FloatSource, Material, MaterialId, MaterialKind, PrincipledMaterial, RoughnessSource, Texture,
+    FloatSource, Material, MaterialId, MaterialKind, Opacity, PrincipledMaterial, RoughnessSource, Texture,
 };
 
+/// Mixes within mixes, at most: a cycle ends here.
+const DEEPEST_MIX: u32 = 6;
 /// Checkers within checkers, at most: a cycle ends here.
 const DEEPEST_CHECKER: u32 = 16;
 
@@ -39,7 +41,7 @@ impl<'d> Library<'d> {
         };
         // All of them, used or not: a mistake in an unused material is a mistake.
         for (name, material) in &desc.materials {
-            let id = library.add(&material.value);
+            let id = library.add(&material.value, 0);
             library.named.insert(name, id);
         }
         library
@@ -50,7 +52,7 @@ impl<'d> Library<'d> {
         match reference {
             // Equal ones are one: the boundaries of a solid must agree on what they bound.
             MaterialRef::Inline(material) => {
-                let id = self.add(material);
+                let id = self.add(material, 0);
                 let added = &self.materials[id.0 as usize];
                 let first = self.materials.iter().position(|m| m == added).unwrap_or(id.0 as usize);
                 if first < id.0 as usize {
@@ -87,11 +89,25 @@ impl<'d> Library<'d> {
     }
 
     pub fn specular_weight(&self, id: MaterialId) -> f32 {
-        self.materials[id.0 as usize].kind.specular_weight(&self.textures)
+        let material = &self.materials[id.0 as usize];
+        let weight = match material.kind {
+            MaterialKind::Mix { a, b, amount } => {
+                let t = amount.mean(&self.textures).clamp(0.0, 1.0);
+                (1.0 - t) * self.specular_weight(a) + t * self.specular_weight(b)
+            }
+            ref kind => kind.specular_weight(&self.textures),
+        };
+        let opacity = material.opacity.map_or(1.0, |o| o.share.mean(&self.textures).clamp(0.0, 1.0));
+        weight * opacity
     }
 
     pub fn needs_no_uv(&self, id: MaterialId) -> bool {
-        self.materials[id.0 as usize].needs_no_uv()
+        let material = &self.materials[id.0 as usize];
+        let parts = match material.kind {
+            MaterialKind::Mix { a, b, .. } => self.needs_no_uv(a) && self.needs_no_uv(b),
+            _ => true,
+        };
+        parts && material.needs_no_uv()
     }
 
     /// Names by id; empty for materials without one.
@@ -112,14 +128,60 @@ impl<'d> Library<'d> {
         MaterialId((self.materials.len() - 1) as u32)
     }
 
-    fn add(&mut self, material: &'d desc::Material) -> MaterialId {
-        let kind = self.kind(&material.kind);
+    /// `depth`: mixes around it.
+    fn add(&mut self, material: &'d desc::Material, depth: u32) -> MaterialId {
+        let kind = match &material.kind {
+            desc::MaterialKind::Mix { a, b, amount } => MaterialKind::Mix {
+                a: self.part(a, depth),
+                b: self.part(b, depth),
+                amount: self.float(amount),
+            },
+            kind => self.kind(kind),
+        };
         let normal_map = material
             .normal_map
             .as_ref()
             .and_then(|name| self.texture(name, true))
             .map(|id| (id, material.normal_strength));
-        self.push(Material::new(kind, normal_map, material.two_sided))
+        let parts = match kind {
+            MaterialKind::Mix { a, b, .. } => vec![a, b],
+            _ => Vec::new(),
+        };
+        let mut compiled = Material::new(kind, normal_map, material.two_sided);
+        if material.opacity != FloatDesc::Value(1.0) {
+            let share = self.float(&material.opacity);
+            compiled.opacity = Some(Opacity { share, cutoff: material.opacity_cutoff });
+        }
+        let id = self.push(compiled);
+        for part in parts {
+            self.materials[part.0 as usize].part_of = Some(id);
+        }
+        id
+    }
+
+    /// A part of a mix: a material of its own, so that a hit tells what it is a part of.
+    fn part(&mut self, reference: &'d MaterialRef, depth: u32) -> MaterialId {
+        let (part, span) = match reference {
+            MaterialRef::Inline(material) => (Some(&**material), None),
+            MaterialRef::Named(name) => {
+                let desc = self.desc;
+                let found = desc.materials.get(name.as_str()).map(|m| &m.value);
+                if found.is_none() {
+                    self.unknown("unknown-material", "material", name);
+                }
+                (found, name.span)
+            }
+        };
+        match part {
+            Some(material) if depth < DEEPEST_MIX => self.add(material, depth + 1),
+            Some(_) => {
+                let message = "mixes of materials are nested too deeply";
+                let error = Diagnostic::error("material-cycle", message).at(span);
+                self.diagnostics.push(error.help("a mix must not contain itself"));
+                self.push(Material::new(MaterialKind::Black, None, true))
+            }
+            None => self.push(Material::new(MaterialKind::Black, None, true)),
+        }
     }
 
     fn kind(&mut self, kind: &'d desc::MaterialKind) -> MaterialKind {
@@ -199,6 +261,8 @@ impl<'d> Library<'d> {
                 })
             }
             desc::MaterialKind::Principled(m) => MaterialKind::Principled(Box::new(self.principled(m))),
+            // Whoever calls has seen to mixes.
+            desc::MaterialKind::Mix { .. } => MaterialKind::Black,
         }
     }
 

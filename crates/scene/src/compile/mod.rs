@@ -16,7 +16,8 @@ use crate::camera::{Fov, Lens};
 use crate::light::LightPicker;
 use crate::scene::{Group, Outer, media_at};
 use crate::{
-    Camera, Light, LightId, Material, MaterialId, MediumStack, Object, Scene, Shape, Target, Targets,
+    Camera, Light, LightId, Material, MaterialId, MaterialKind, MediumStack, Object, Scene, Shape, Target,
+    Targets,
 };
 use materials::Library;
 use shapes::Solid;
@@ -367,7 +368,10 @@ impl<'d> Compiler<'d> {
         let material_names = self.library.names();
         let (materials, textures) = self.library.finish();
         let absorbs = materials.iter().any(|m| !m.absorption().is_zero());
+        let by_chance =
+            materials.iter().any(|m| m.opacity.is_some() || matches!(m.kind, MaterialKind::Mix { .. }));
         let mut scene = Scene {
+            by_chance,
             bvh,
             outer: self.outer,
             outer_names: self.outer_names,

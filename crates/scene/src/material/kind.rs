@@ -5,7 +5,7 @@ use super::source::{ColorSource, FloatSource, Lookup, Place, RoughnessSource};
 use super::varied::{
     CoatedConductorMaterial, CoatedDiffuseMaterial, ConductorMaterial, DielectricMaterial, PrincipledMaterial,
 };
-use crate::{SurfaceInteraction, Texture};
+use crate::{MaterialId, SurfaceInteraction, Texture};
 
 /// How a surface scatters; the BSDF at a point is made from it.
 #[derive(Clone, Debug, PartialEq)]
@@ -80,6 +80,15 @@ pub enum MaterialKind {
     CoatedConductor(CoatedConductorMaterial),
     /// Everything at once.
     Principled(Box<PrincipledMaterial>),
+    /// One of two materials, by chance; see [`crate::Scene::intersect`].
+    Mix {
+        /// The one.
+        a: MaterialId,
+        /// The other.
+        b: MaterialId,
+        /// Share of `b`.
+        amount: FloatSource,
+    },
     /// Reflects nothing.
     Black,
 }
@@ -107,6 +116,7 @@ impl MaterialKind {
             Self::CoatedDiffuse(m) => m.is_uniform(),
             Self::CoatedConductor(m) => m.is_uniform(),
             Self::Principled(m) => m.is_uniform(),
+            Self::Mix { .. } => false,
             Self::Black => true,
         }
     }
@@ -126,6 +136,7 @@ impl MaterialKind {
             | Self::RoughDiffuse { .. }
             | Self::DiffuseTransmission { .. }
             | Self::Sheen { .. }
+            | Self::Mix { .. }
             | Self::Black => return false,
         };
         !roughness.is_isotropic() && !roughness.is_smooth()
@@ -142,7 +153,7 @@ impl MaterialKind {
     }
 
     /// Share of the light that it throws on specularly, roughly: how much a caustic photon aimed at it is worth; 0 where it has
-    /// no specular event anywhere. By kind, never by roughness.
+    /// no specular event anywhere, and for mixes, whose parts have theirs. By kind, never by roughness.
     pub fn specular_weight(&self, textures: &[Texture]) -> f32 {
         // Only the delta reflection of a smooth coat is specular.
         let coat = |ior: f32, roughness: RoughnessSource| match roughness.is_smooth() {
@@ -165,13 +176,14 @@ impl MaterialKind {
             | Self::RoughDiffuse { .. }
             | Self::DiffuseTransmission { .. }
             | Self::Sheen { .. }
+            | Self::Mix { .. }
             | Self::Black => 0.0,
         }
     }
 
     /// The kind of BSDF at a hit, which may be absent where nothing varies.
     #[inline(never)]
-    pub(super) fn bsdf(&self, hit: Option<&SurfaceInteraction>, eta: f32, lookup: &Lookup<'_>) -> BsdfKind {
+    pub(crate) fn bsdf(&self, hit: Option<&SurfaceInteraction>, eta: f32, lookup: &Lookup<'_>) -> BsdfKind {
         let at = &Place { hit, lookup };
         match self {
             Self::Diffuse { color } => BsdfKind::Diffuse { albedo: at.color(*color) },
@@ -205,7 +217,8 @@ impl MaterialKind {
             Self::CoatedDiffuse(m) => m.bsdf(at),
             Self::CoatedConductor(m) => m.bsdf(at),
             Self::Principled(m) => m.bsdf(at, eta),
-            Self::Black => BsdfKind::Black,
+            // No hit has such a material: one of its two is chosen as the surface is met.
+            Self::Mix { .. } | Self::Black => BsdfKind::Black,
         }
     }
 }

@@ -11,8 +11,8 @@ use math::{Frame, Vec3};
 use crate::{Medium, SurfaceInteraction};
 
 pub use kind::MaterialKind;
-pub(crate) use source::Lookup;
 pub use source::{ColorSource, FloatSource, RoughnessSource};
+pub(crate) use source::{Lookup, Place};
 pub use varied::{
     CoatedConductorMaterial, CoatedDiffuseMaterial, ConductorMaterial, DielectricMaterial, PrincipledMaterial,
 };
@@ -42,6 +42,15 @@ fn along_tangent(ns: Vec3, dpdu: Vec3) -> Frame {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct MaterialId(pub u32);
 
+/// How much of a surface is there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Opacity {
+    /// 0..=1.
+    pub share: FloatSource,
+    /// Where the share is at least this the surface is opaque, else there is none; `None`: the share is a chance.
+    pub cutoff: Option<f32>,
+}
+
 /// A material: its kind and what bends its normals.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
@@ -51,6 +60,10 @@ pub struct Material {
     pub normal_map: Option<(u32, f32)>,
     /// Whether the back scatters as the front does; else it is black.
     pub two_sided: bool,
+    /// How much of the surface is there; `None`: all of it.
+    pub opacity: Option<Opacity>,
+    /// The mix that it is a part of.
+    pub(crate) part_of: Option<MaterialId>,
     /// Whether it tells the direction of growing u from others.
     oriented: bool,
     /// The BSDF kind where nothing varies over the surface (and the kind is not a dielectric, whose index depends
@@ -63,7 +76,8 @@ impl Material {
     pub fn new(kind: MaterialKind, normal_map: Option<(u32, f32)>, two_sided: bool) -> Self {
         let two_sided = two_sided || kind.is_crossed();
         let oriented = kind.is_anisotropic();
-        let mut material = Self { kind, normal_map, two_sided, oriented, constant: None };
+        let mut material =
+            Self { kind, normal_map, two_sided, opacity: None, part_of: None, oriented, constant: None };
         if material.kind.is_uniform() && material.medium(MaterialId(0)).is_none() {
             material.constant =
                 Some(material.kind.bsdf(None, 1.0, &Lookup { textures: &[], footprint: 0.0 }));
@@ -92,9 +106,14 @@ impl Material {
         }
     }
 
-    /// Whether texture coordinates are of no use to it.
+    /// Whether texture coordinates are of no use to it; of a mix, apart from its parts.
     pub fn needs_no_uv(&self) -> bool {
-        self.kind.is_uniform() && self.normal_map.is_none() && !self.oriented
+        let kind = match &self.kind {
+            MaterialKind::Mix { amount, .. } => amount.is_constant(),
+            kind => kind.is_uniform(),
+        };
+        let opacity = self.opacity.is_none_or(|o| o.share.is_constant());
+        kind && opacity && self.normal_map.is_none() && !self.oriented
     }
 
     /// The BSDF at `hit`; `eta` is the resolved relative index where the material is a dielectric.

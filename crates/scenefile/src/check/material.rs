@@ -1,13 +1,17 @@
 //! Names in materials, and reflectances that add up to too much.
 
 use super::Checker;
-use crate::desc::{ColorDesc, Ior, Material, MaterialKind, Metal, Principled, Roughness};
+use crate::desc::{ColorDesc, Ior, Material, MaterialKind, MaterialRef, Metal, Principled, Roughness};
 use crate::diagnostic::{Diagnostic, Report, quoted};
 use crate::nearest::nearest;
 use crate::source::{Sourced, Span};
 
+/// Mixes within mixes, at most.
+const DEEPEST_MIX: u32 = 6;
+
 impl Checker<'_> {
     pub(super) fn material(&self, report: &mut Report, what: &str, material: &Material, span: Option<Span>) {
+        self.float(report, what, &material.opacity);
         if let Some(name) = &material.normal_map {
             self.texture_name(report, what, name);
         }
@@ -62,7 +66,29 @@ impl Checker<'_> {
                 self.float(report, what, &m.coat_roughness);
             }
             MaterialKind::Principled(m) => self.principled(report, what, m),
+            MaterialKind::Mix { a, b, amount } => {
+                self.float(report, what, amount);
+                self.material_ref(report, what, Some(a));
+                self.material_ref(report, what, Some(b));
+                if self.is_too_deep(material, 0) {
+                    let message =
+                        format!("{what} mixes mixes of mixes, more than {DEEPEST_MIX} deep, or itself");
+                    report.push(Diagnostic::error("material-cycle", message).at(span));
+                }
+            }
         }
+    }
+
+    /// Whether more than so many mixes lie within each other, as where one is made of itself.
+    fn is_too_deep(&self, material: &Material, depth: u32) -> bool {
+        let MaterialKind::Mix { a, b, .. } = &material.kind else { return false };
+        let below = |reference: &MaterialRef| match reference {
+            MaterialRef::Inline(material) => self.is_too_deep(material, depth + 1),
+            MaterialRef::Named(name) => {
+                self.desc.materials.get(name.as_str()).is_some_and(|m| self.is_too_deep(m, depth + 1))
+            }
+        };
+        depth >= DEEPEST_MIX || below(a) || below(b)
     }
 
     fn principled(&self, report: &mut Report, what: &str, m: &Principled) {

@@ -1,6 +1,6 @@
 //! Materials.
 
-use super::{ColorDesc, FloatDesc, Triple};
+use super::{ColorDesc, FloatDesc, MaterialRef, Triple};
 use crate::source::Sourced;
 
 /// A refractive index.
@@ -402,6 +402,15 @@ pub enum MaterialKind {
     CoatedConductor(CoatedConductor),
     /// The slab of Disney's BSDF and OpenPBR.
     Principled(Box<Principled>),
+    /// Two materials, of which chance chooses one wherever light comes.
+    Mix {
+        /// The one.
+        a: MaterialRef,
+        /// The other.
+        b: MaterialRef,
+        /// Share of `b`, 0..=1.
+        amount: FloatDesc,
+    },
 }
 
 /// A material: `[materials.NAME]`.
@@ -411,6 +420,10 @@ pub struct Material {
     pub kind: MaterialKind,
     /// A texture of tangent-space normals (OpenGL convention, +y up), by name.
     pub normal_map: Option<Sourced<String>>,
+    /// How much of the surface is there, 0..=1; the rest lets all rays pass. Lamps are opaque.
+    pub opacity: FloatDesc,
+    /// Where opacity is at least this the surface is opaque, else there is none; absent: opacity is a chance.
+    pub opacity_cutoff: Option<f32>,
     /// Factor on the map's slopes; 1 as stored.
     pub normal_strength: f32,
     /// Whether the back side scatters as the front does; else the back is black. Ignored by what
@@ -420,7 +433,14 @@ pub struct Material {
 
 impl From<MaterialKind> for Material {
     fn from(kind: MaterialKind) -> Self {
-        Self { kind, normal_map: None, normal_strength: 1.0, two_sided: true }
+        Self {
+            kind,
+            normal_map: None,
+            opacity: 1.0.into(),
+            opacity_cutoff: None,
+            normal_strength: 1.0,
+            two_sided: true,
+        }
     }
 }
 
@@ -477,6 +497,7 @@ impl MaterialKind {
             Self::CoatedDiffuse(_) => "coated-diffuse",
             Self::CoatedConductor(_) => "coated-conductor",
             Self::Principled(_) => "principled",
+            Self::Mix { .. } => "mix",
         }
     }
 
@@ -484,7 +505,8 @@ impl MaterialKind {
     pub fn has_two_sided(&self) -> bool {
         !matches!(
             self,
-            Self::Dielectric(_)
+            Self::Mix { .. }
+                | Self::Dielectric(_)
                 | Self::ThinDielectric(_)
                 | Self::DiffuseTransmission { .. }
                 | Self::Principled(_)

@@ -19,6 +19,8 @@ fn read_material(report: &mut Report, what: String, node: &Node) -> Option<Mater
     let table = as_table(report, &what, node)?;
     let r = Reader::new(report, &spec::MATERIALS, what, table, node.span);
     let normal_map = r.optional_text(report, "normal_map");
+    let opacity = r.float_desc(report, "opacity");
+    let opacity_cutoff = r.optional_number(report, "opacity_cutoff");
     let normal_strength = r.number(report, "normal_strength");
     let kind = kind(report, &r, r.variant()?);
     let sided = r.has("two_sided");
@@ -26,6 +28,8 @@ fn read_material(report: &mut Report, what: String, node: &Node) -> Option<Mater
     Some(Material {
         kind: kind?,
         normal_map: normal_map?,
+        opacity: opacity?,
+        opacity_cutoff: opacity_cutoff?,
         normal_strength: normal_strength?,
         two_sided: two_sided?,
     })
@@ -81,6 +85,12 @@ fn kind(report: &mut Report, r: &Reader<'_>, variant: &str) -> Option<MaterialKi
         }
         "coated-diffuse" => coated_diffuse(report, r).map(MaterialKind::CoatedDiffuse),
         "coated-conductor" => coated_conductor(report, r).map(MaterialKind::CoatedConductor),
+        "mix" => {
+            let a = required_reference(report, r, "a");
+            let b = required_reference(report, r, "b");
+            let amount = r.float_desc(report, "amount");
+            Some(MaterialKind::Mix { a: a?, b: b?, amount: amount? })
+        }
         _ => principled(report, r).map(|p| MaterialKind::Principled(Box::new(p))),
     }
 }
@@ -298,17 +308,31 @@ fn roughness(report: &mut Report, r: &Reader<'_>) -> Option<Roughness> {
 
 /// The material of an object: a name, or a material in place.
 pub(super) fn reference(report: &mut Report, r: &Reader<'_>) -> Option<MaterialRef> {
-    let node = &r.given("material")?.node;
+    reference_at(report, r, "material")
+}
+
+fn required_reference(report: &mut Report, r: &Reader<'_>, name: &str) -> Option<MaterialRef> {
+    if r.given(name).is_none() {
+        r.missing(report, name);
+    }
+    reference_at(report, r, name)
+}
+
+fn reference_at(report: &mut Report, r: &Reader<'_>, name: &str) -> Option<MaterialRef> {
+    let node = &r.given(name)?.node;
     match &node.value {
         Value::Text(name) => Some(MaterialRef::Named(Sourced::at(name.clone(), node.span))),
         Value::Table(_) => {
-            let what = format!("the material of {}", r.what);
+            let what = match name {
+                "material" => format!("the material of {}", r.what),
+                part => format!("material `{part}` of {}", r.what),
+            };
             Some(MaterialRef::Inline(Box::new(material(report, what, node))))
         }
         _ => {
             crate::convert::wrong_type(
                 report,
-                &r.label("material"),
+                &r.label(name),
                 "the name of a material or { kind = … }",
                 node,
             );

@@ -351,6 +351,16 @@ pub const MATERIALS: Section = Section {
                 keys: &[PRINCIPLED, ROUGH_PRINCIPLED, ABSORPTION],
                 example: "[materials.car]\nkind = \"principled\"\nbase_color = [0.6, 0.02, 0.02]\nmetallic = 0.5\nclearcoat = 1\n",
             },
+            Variant {
+                name: "mix",
+                doc: "Two materials, side by side in grains finer than can be seen.",
+                keys: &[&[
+                    key("a", Kind::Material, "", Preset::Required, "The one."),
+                    key("b", Kind::Material, "", Preset::Required, "The other."),
+                    share("amount", 0.5, "The share of b."),
+                ]],
+                example: "[materials.rust]\nkind = \"mix\"\na = { kind = \"conductor\", metal = \"iron\" }\nb = { kind = \"diffuse\", color = [0.4, 0.1, 0.05] }\namount = 0.3\n",
+            },
         ],
     }),
     keys: &[
@@ -360,6 +370,20 @@ pub const MATERIALS: Section = Section {
             "",
             Absent("none"),
             "A texture of tangent-space normals (color_space = \"linear\", +y up), by name.",
+        ),
+        key(
+            "opacity",
+            NumberOrTexture(UNIT),
+            "",
+            Number(1.0),
+            "How much of the surface is there; rays of all kinds pass the rest. Lamps are opaque.",
+        ),
+        key(
+            "opacity_cutoff",
+            Kind::Number(UNIT),
+            "",
+            Absent("opacity is a chance"),
+            "Where opacity is at least this the surface is opaque, elsewhere there is none.",
         ),
         key(
             "normal_strength",

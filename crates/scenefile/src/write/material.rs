@@ -55,6 +55,8 @@ pub(super) fn material_fields(material: &Material) -> Fields {
     if let Some(name) = &material.normal_map {
         f.text("normal_map", name);
     }
+    f.float("opacity", &material.opacity);
+    f.optional_number("opacity_cutoff", material.opacity_cutoff);
     f.number("normal_strength", material.normal_strength);
     if material.kind.has_two_sided() {
         f.bool("two_sided", material.two_sided);
@@ -124,6 +126,11 @@ fn kind_fields(f: &mut Fields, kind: &MaterialKind) {
             facets(f, m.facets);
         }
         MaterialKind::Principled(m) => principled(f, m),
+        MaterialKind::Mix { a, b, amount } => {
+            super::material_at(f, "a", a);
+            super::material_at(f, "b", b);
+            f.float("amount", amount);
+        }
     }
 }
 

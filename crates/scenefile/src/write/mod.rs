@@ -205,11 +205,16 @@ fn vcm(desc: &SceneDesc) -> Fields {
     f
 }
 
-fn material_ref(f: &mut Fields, material: Option<&MaterialRef>) {
+fn material_at(f: &mut Fields, key: &'static str, material: &MaterialRef) {
     match material {
-        Some(MaterialRef::Named(name)) => f.text("material", name),
-        Some(MaterialRef::Inline(material)) => f.raw("material", material_fields(material).inline()),
-        None => {}
+        MaterialRef::Named(name) => f.text(key, name),
+        MaterialRef::Inline(material) => f.raw(key, material_fields(material).inline()),
+    }
+}
+
+fn material_ref(f: &mut Fields, material: Option<&MaterialRef>) {
+    if let Some(material) = material {
+        material_at(f, "material", material);
     }
 }
 
