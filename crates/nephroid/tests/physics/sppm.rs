@@ -118,7 +118,7 @@ fn layers_agree_with_path_under_a_glass_sphere() {
         lamp(disk([0.0, 2.5, 0.0], DOWN, 2.0), 1.0),
     ];
     let desc = scene_of(look([0.0, 0.7, 2.0], [0.0, 0.1, 0.0], 22.0), 16, objects);
-    let desc = with(&desc, 5_000, 0.02, DirectLight::Sampling);
+    let desc = with(&desc, 12_000, 0.02, DirectLight::Sampling);
     let layers = [Layer::Direct, Layer::Caustic];
     let means = |integrator, passes| -> Vec<Moments> {
         let films = runs(&desc, integrator, 16, passes, |film| layers.map(|layer| mean(film, layer)));
