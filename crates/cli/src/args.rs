@@ -36,6 +36,8 @@ pub enum Command {
     Info(InfoArgs),
     /// Trace one path of a render again and print it, vertex by vertex.
     Replay(ReplayArgs),
+    /// Write a scene as TOML; its large meshes become PLY files in a folder beside it.
+    Convert(ConvertArgs),
     /// Compare pictures with a reference, in linear radiance.
     Compare(CompareArgs),
     /// Print the reference of scene files.
@@ -52,8 +54,12 @@ pub enum Command {
 /// A scene and what replaces parts of it.
 #[derive(Debug, Args)]
 pub struct SceneArgs {
-    /// The scene file (TOML).
+    /// The scene file: TOML, or .pbrt (version 4, or 3 where its names differ).
     pub scene: PathBuf,
+
+    /// Take every doubt about the scene for a mistake, as what a .pbrt file has and Nephroid does not.
+    #[arg(long)]
+    pub strict: bool,
 
     /// Algorithm [default: the scene's, or auto].
     #[arg(long, value_name = "NAME")]
@@ -252,6 +258,18 @@ impl From<PhotonMap> for PhotonKind {
             PhotonMap::Caustic => Self::Caustic,
         }
     }
+}
+
+/// Arguments of `convert`.
+#[derive(Debug, Args)]
+pub struct ConvertArgs {
+    /// The scene and its changes.
+    #[command(flatten)]
+    pub scene: SceneArgs,
+
+    /// The scene to write. It must not exist.
+    #[arg(value_name = "OUT.toml")]
+    pub out: PathBuf,
 }
 
 /// Arguments of `compare`.

@@ -3,6 +3,7 @@
 mod args;
 mod checkpoint;
 mod compare;
+mod convert;
 mod describe;
 mod drive;
 mod failure;
@@ -32,6 +33,7 @@ fn main() -> ExitCode {
         Command::Merge(args) => merge::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Replay(args) => replay::run(&args),
+        Command::Convert(args) => convert::run(&args),
         Command::Compare(args) => compare::run(&args),
         Command::Describe(args) => describe::run(&args),
         Command::Completions { shell } => manual::completions(shell),

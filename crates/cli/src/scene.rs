@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use nephroid::{
     Checkpoint, CompileError, Compiled, Diagnostic, Overrides, Phase, SceneDesc, Sources, Timings, compile,
-    load, render_all,
+    load, render_all, strict,
 };
 
 use crate::args::SceneArgs;
@@ -33,6 +33,7 @@ pub fn describe(args: &SceneArgs, messages: Vec<String>) -> Result<Described, Fa
     }
     let start = Instant::now();
     let loaded = load(&args.scene, &args.set);
+    let loaded = if args.strict { strict(loaded) } else { loaded };
     let mut timings = Timings::default();
     timings.add(Phase::Load, start.elapsed());
     let Some(mut desc) = loaded.desc else {

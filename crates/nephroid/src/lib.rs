@@ -1,6 +1,6 @@
 //! Nephroid as a library: global illumination and caustics with photon maps.
 //!
-//! A [`SceneDesc`] says what is in the scene and how to render it; it is read from a TOML file by [`load`] or built in
+//! A [`SceneDesc`] says what is in the scene and how to render it; it is read from a file by [`load`] or built in
 //! code. [`compile`] makes a [`Scene`] of it, a [`Session`] renders a [`Job`] pass by pass into a [`Film`], and an
 //! [`Output`] writes that as EXR or PNG.
 //!
@@ -41,6 +41,7 @@ pub use film::{
     CompareError, Comparison, Film, Layer, OutputError, ReadError, RgbImage, check_writable, compare,
     difference, discard_unfinished, encode_png_bytes, write_atomically,
 };
+pub use import::{OutsourceError, load, outsource, strict};
 pub use integrators::{
     IntegratorKind, LayerSettings, MapReport, PathEnd, PathEvent, PathRecord, PhotonKind, PhotonMapSettings,
     Settings, Technique, VertexRecord,
@@ -48,7 +49,7 @@ pub use integrators::{
 pub use math::Vec3;
 pub use scene::{Light, LightId, Scene};
 pub use scenefile::{
-    Diagnostic, Loaded, SceneDesc, Severity, Sources, UnknownTopic, desc, describe, load, parse, render_all,
+    Diagnostic, Loaded, SceneDesc, Severity, Sources, UnknownTopic, desc, describe, parse, render_all,
     to_toml, topics,
 };
 pub use session::{

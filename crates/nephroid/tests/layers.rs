@@ -17,12 +17,13 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("mesh", &["math"]),
     ("bsdf", &["math", "sampling", "color"]),
     ("scenefile", &["color"]),
+    ("import", &["math", "color", "mesh", "scenefile"]),
     ("scene", &["math", "par", "sampling", "color", "accel", "mesh", "bsdf", "scenefile"]),
     ("film", &["math", "color"]),
     ("transport", &["math", "sampling", "color", "scene", "bsdf", "photons"]),
     ("integrators", &["math", "par", "sampling", "color", "scene", "bsdf", "photons", "film", "transport"]),
     ("session", &["par", "color", "scenefile", "scene", "film", "integrators"]),
-    ("nephroid", &["math", "color", "scenefile", "scene", "film", "integrators", "session"]),
+    ("nephroid", &["math", "color", "scenefile", "import", "scene", "film", "integrators", "session"]),
     ("cli", &["nephroid"]),
 ];
 

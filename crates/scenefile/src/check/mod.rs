@@ -161,8 +161,9 @@ impl Checker<'_> {
     fn file<P: AsRef<Path>>(&self, report: &mut Report, what: &str, file: &Sourced<P>, formats: &[&str]) {
         let written = file.value.as_ref();
         let path = self.desc.resolve(written);
-        let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
-        if !formats.contains(&extension.as_str()) {
+        let name = path.file_name().map(|name| name.to_string_lossy().to_lowercase()).unwrap_or_default();
+        // Some extensions have two parts.
+        if !formats.iter().any(|format| name.strip_suffix(format).is_some_and(|stem| stem.ends_with('.'))) {
             let message = format!("{} of {what} is of no known format", quoted(&written.to_string_lossy()));
             let help = format!("known are .{}", formats.join(", ."));
             report.push(Diagnostic::error("unknown-format", message).at(file.span).help(help));

@@ -1,0 +1,52 @@
+//! Scenes of other programs as [`SceneDesc`](scenefile::SceneDesc)s.
+//!
+//! [`load`] reads what Nephroid knows, by the file's extension: its own TOML, and pbrt-v4 (v3 where its names differ).
+//! What a format has and Nephroid does not is said once, with its place and what is done instead, as a warning.
+//! [`outsource`] moves large meshes of a description into PLY files, so that it can be written as TOML.
+
+mod file;
+mod matrix;
+mod outsource;
+mod pbrt;
+mod report;
+
+use std::path::Path;
+
+use scenefile::{Diagnostic, Loaded, Severity, Sources, Span};
+
+pub use outsource::{OutsourceError, outsource};
+
+/// Reads a scene in any known format: `.pbrt` and `.pbrt.gz` as pbrt, everything else as TOML.
+///
+/// `overrides` replace values of TOML files, as [`scenefile::load`] takes them; with another format they are errors.
+/// Never panics; memory is bounded by the size of the files.
+pub fn load(path: &Path, overrides: &[String]) -> Loaded {
+    if !is_pbrt(path) {
+        return scenefile::load(path, overrides);
+    }
+    if overrides.is_empty() {
+        return pbrt::load(path);
+    }
+    let mut sources = Sources::default();
+    let span = |file| Span { file, start: 0, end: 0 };
+    let wrong = |text: &String| {
+        Diagnostic::error("override", "values can be replaced in TOML scenes only")
+            .at(span(sources.add("--set", text.as_str())))
+            .help("`nephroid convert` makes a TOML scene of this one")
+    };
+    let diagnostics = overrides.iter().map(wrong).collect();
+    Loaded { desc: None, diagnostics, sources }
+}
+
+/// Turns every warning into an error, after which there is no description if there was any.
+pub fn strict(loaded: Loaded) -> Loaded {
+    let doubtful = !loaded.diagnostics.is_empty();
+    let diagnostics =
+        loaded.diagnostics.into_iter().map(|d| Diagnostic { severity: Severity::Error, ..d }).collect();
+    Loaded { desc: loaded.desc.filter(|_| !doubtful), diagnostics, ..loaded }
+}
+
+fn is_pbrt(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
+    name.ends_with(".pbrt") || name.ends_with(".pbrt.gz")
+}

@@ -1,0 +1,211 @@
+//! Film, filter, sampler and integrator.
+
+use scenefile::Span;
+use scenefile::desc::{FilterKind, IntegratorKind, View};
+
+use super::Importer;
+use super::params::Params;
+
+impl Importer {
+    /// Understands what came before the world.
+    pub(super) fn settle(&mut self, world: Span) {
+        self.desc.film.view = View::Srgb;
+        // pbrt's defaults.
+        self.desc.film.size = [1280, 720];
+        self.desc.film.filter = FilterKind::Gaussian;
+        self.desc.film.filter_radius = Some(1.5);
+        self.desc.render.passes = 16;
+        self.desc.render.max_depth = Some(5);
+        if let Some((params, kind)) = self.preamble.film.take() {
+            self.film(&params, &kind);
+        }
+        if let Some((params, kind)) = self.preamble.filter.take() {
+            self.filter(&params, &kind);
+        }
+        if let Some((params, kind)) = self.preamble.sampler.take() {
+            self.sampler(&params, &kind);
+        }
+        if let Some((params, kind)) = self.preamble.integrator.take() {
+            self.integrator(&params, &kind);
+        }
+        self.camera(self.desc.film.size, world);
+    }
+
+    fn film(&mut self, params: &Params, kind: &str) {
+        let report = &mut self.report;
+        if !matches!(kind, "rgb" | "image" | "gbuffer" | "spectral") {
+            report.error("unknown-kind", format!("there is no film `{kind}`"), params.span);
+        }
+        if kind == "spectral" {
+            report.instead("a spectral film is not rendered", "its picture is linear RGB", params.span);
+        }
+        let side = [1, 65536];
+        self.desc.film.size = [
+            params.integer(report, "xresolution", 1280, side),
+            params.integer(report, "yresolution", 720, side),
+        ];
+        for name in ["cropwindow", "pixelbounds"] {
+            if let Some(param) = params.any(name) {
+                report.instead(
+                    "a part of the picture is not rendered alone",
+                    "the whole picture is",
+                    param.span,
+                );
+            }
+        }
+        // Neither names nor what is stored beside the radiance change it.
+        let names = ["filename", "diagonal", "savefp16", "maxcomponentvalue", "coordinatesystem", "nbuckets"];
+        params.ignore(&names);
+        params.ignore(&["lambdamin", "lambdamax"]);
+        // pbrt-v4, PixelSensor: radiance is multiplied by the exposure time and by ISO / 100.
+        let (iso, time) = (params.number_or("iso", 100.0), params.number_or("exposuretime", 1.0));
+        self.gain = iso / 100.0 * time * params.number_or("scale", 1.0);
+        if !(self.gain > 0.0) {
+            report.error("out-of-range", "`iso` and `exposuretime` must be greater than 0", params.span);
+        }
+        if let Some(sensor) = params.find("sensor", &["string"])
+            && sensor.text() != Some("cie1931")
+        {
+            report.instead(
+                "the colours of a camera's sensor are not imitated",
+                "those of the eye are",
+                sensor.span,
+            );
+        }
+        if let Some(white) = params.any("whitebalance")
+            && white.numbers().first().is_some_and(|k| *k != 0.0)
+        {
+            report.instead("white balance is not applied", "white is that of Rec. 709, D65", white.span);
+        }
+        params.finish(report);
+    }
+
+    fn filter(&mut self, params: &Params, kind: &str) {
+        let radius = |default: f64| {
+            let [x, y] = ["xradius", "yradius"].map(|name| params.number_or(name, default));
+            ([x, y], x.max(y))
+        };
+        let (kind, ([x, y], radius)) = match kind {
+            "box" => (FilterKind::Box, radius(0.5)),
+            "gaussian" => (FilterKind::Gaussian, radius(1.5)),
+            "mitchell" => (FilterKind::Mitchell, radius(2.0)),
+            "triangle" => {
+                // A tent of half width r has the variance r²/6, our Gaussian a third of its radius as deviation.
+                let ([x, y], r) = radius(2.0);
+                let text = "the triangle filter is not rendered";
+                self.report.instead(text, "a Gaussian of the same variance takes its place", params.span);
+                (FilterKind::Gaussian, ([x, y], r * 1.5f64.sqrt()))
+            }
+            "sinc" => {
+                let text = "the sinc filter is not rendered";
+                self.report.instead(text, "Mitchell's filter of radius 2 takes its place", params.span);
+                radius(4.0);
+                (FilterKind::Mitchell, ([2.0, 2.0], 2.0))
+            }
+            _ => {
+                self.report.error("unknown-kind", format!("there is no filter `{kind}`"), params.span);
+                return;
+            }
+        };
+        if x != y {
+            let text = "a filter of unequal radii is not rendered";
+            self.report.instead(text, "the greater one holds both ways", params.span);
+        }
+        if !(0.5..=16.0).contains(&radius) {
+            self.report.error(
+                "out-of-range",
+                "the radius of the filter must be 0.5 to 16 pixels",
+                params.span,
+            );
+            return;
+        }
+        params.ignore(&["B", "C", "tau", "sigma", "alpha"]);
+        self.desc.film.filter = kind;
+        self.desc.film.filter_radius = Some(radius as f32);
+        params.finish(&mut self.report);
+    }
+
+    fn sampler(&mut self, params: &Params, kind: &str) {
+        let report = &mut self.report;
+        let most = [1, 4_194_304];
+        let passes = if kind == "stratified" {
+            let side = |report: &mut _, name| params.integer(report, name, 4, [1, 2048]);
+            side(report, "xsamples") * side(report, "ysamples")
+        } else {
+            params.integer(report, "pixelsamples", 16, most)
+        };
+        self.desc.render.passes = passes;
+        if let Some(seed) = params.number("seed") {
+            self.desc.render.seed = seed.max(0.0) as u64;
+        }
+        // How samples are spread does not change what they converge to.
+        params.ignore(&["randomization", "jitter", "dimensions"]);
+        params.finish(report);
+    }
+
+    /// pbrt's `maxdepth` counts scattering events, as ours does: 0 is emission alone, 1 direct light. A path tracer
+    /// adds emission, ends if it has scattered so often, else samples a light and scatters.
+    fn integrator(&mut self, params: &Params, kind: &str) {
+        let report = &mut self.report;
+        let depth = params.integer(report, "maxdepth", 5, [0, u32::MAX]);
+        if depth == 0 {
+            let text = "a picture of lights alone is not rendered";
+            report.instead(text, "it has direct light, too", params.span);
+        }
+        self.desc.render.max_depth = Some(depth.max(1));
+        self.desc.render.integrator = match kind {
+            "path" | "volpath" | "bdpt" | "mlt" | "simplepath" | "simplevolpath" | "randomwalk"
+            | "lightpath" => IntegratorKind::Auto,
+            "sppm" => {
+                let sppm = &mut self.desc.sppm;
+                if let Some(photons) = params.number("photonsperiteration").filter(|n| *n >= 1.0) {
+                    sppm.photons = Some(photons as u64);
+                }
+                if let Some(radius) = params.number("radius").or(params.number("initialradius")) {
+                    sppm.radius = Some(radius as f32);
+                }
+                if let Some(n) = params.number("iterations").or(params.number("numiterations")) {
+                    self.desc.render.passes = (n as u32).clamp(1, 4_194_304);
+                }
+                IntegratorKind::Sppm
+            }
+            "whitted" | "directlighting" | "ao" | "ambientocclusion" | "function" => {
+                let text = format!("the integrator `{kind}` is not imitated");
+                report.instead(text, "all light up to its depth is rendered", params.span);
+                IntegratorKind::Auto
+            }
+            _ => {
+                report.error("unknown-kind", format!("there is no integrator `{kind}`"), params.span);
+                return;
+            }
+        };
+        if params.truth("regularize") == Some(true) {
+            report.instead("materials are not regularised", "they scatter as described", params.span);
+        }
+        // Means to the same end.
+        let names = [
+            "lightsampler",
+            "lightsamplestrategy",
+            "visualizestrategies",
+            "visualizeweights",
+            "bootstrapsamples",
+            "chains",
+            "mutationsperpixel",
+            "largestepprobability",
+            "sigma",
+            "samplelights",
+            "samplebsdf",
+            "rrthreshold",
+            "imagewritefrequency",
+            "seed",
+            "strategy",
+            "cossample",
+            "maxdistance",
+            "function",
+            "nsamples",
+            "pixelbounds",
+        ];
+        params.ignore(&names);
+        params.finish(report);
+    }
+}
