@@ -360,7 +360,7 @@ fn names_that_lead_nowhere() {
                |
             18 | file = "cow.stl"
                |        ^^^^^^^^^
-               = help: known are .obj, .ply
+               = help: known are .obj, .ply, .ply.gz
 
             error[missing-file]: the file `cow.stl` of object `a` is not there
               --> box.toml:18:8

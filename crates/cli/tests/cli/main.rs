@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too")]
 
 mod harness;
+mod imports;
 mod interrupt;
 mod layers;
 #[cfg(all(unix, feature = "long"))]

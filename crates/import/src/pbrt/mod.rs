@@ -51,6 +51,8 @@ struct Open {
     /// The next byte.
     at: usize,
     path: PathBuf,
+    /// The same, canonical.
+    whole: PathBuf,
     /// Scopes that were open when it began.
     scopes: usize,
     /// Restored at its end.
@@ -142,11 +144,8 @@ impl Importer {
             Err(())
         };
         // The same file through another name is the same file.
-        let same = |a: &Path, b: &Path| match (a.canonicalize(), b.canonicalize()) {
-            (Ok(a), Ok(b)) => a == b,
-            _ => a == b,
-        };
-        if self.open.iter().any(|open| same(&open.path, path)) {
+        let whole = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
+        if self.open.iter().any(|open| open.whole == whole) {
             return fail(self, "includes itself");
         }
         if self.open.len() >= MOST_DEEP {
@@ -166,7 +165,7 @@ impl Importer {
         let file = self.sources.add(path, text);
         let at = if self.text(file).starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
         let scopes = self.scopes.len();
-        self.open.push(Open { file, at, path: path.to_path_buf(), scopes, graphics: None });
+        self.open.push(Open { file, at, path: path.to_path_buf(), whole, scopes, graphics: None });
         Ok(())
     }
 

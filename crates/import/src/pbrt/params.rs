@@ -200,15 +200,15 @@ impl Params {
         found.map_or(&[][..], Param::numbers).chunks_exact(2).map(|c| [c[0], c[1]]).collect()
     }
 
-    /// Indices of vertices; `None` where absent. Any that is no index of `count` vertices is an error.
+    /// Indices of vertices; empty where absent. `None`: one is no index of `count` vertices, which is an error.
     pub(super) fn indices(&self, report: &mut Report, name: &str, count: usize) -> Option<Vec<u32>> {
-        let param = self.find(name, &["integer"])?;
+        let Some(param) = self.find(name, &["integer"]) else { return Some(Vec::new()) };
         if let Some(bad) =
             param.numbers().iter().find(|i| !(0.0..count as f64).contains(*i) || i.fract() != 0.0)
         {
             let text = format!("{} names vertex {bad}, but there are {count}", self.what);
             report.error("out-of-range", text, param.span);
-            return Some(Vec::new());
+            return None;
         }
         Some(param.numbers().iter().map(|i| *i as u32).collect())
     }

@@ -120,18 +120,15 @@ impl Importer {
     }
 
     fn faces<const N: usize>(&mut self, params: &Params, count: usize) -> Option<Vec<[u32; N]>> {
-        let indices = match params.indices(&mut self.report, "indices", count) {
-            Some(indices) => indices,
-            None if count == N => (0..N as u32).collect(),
-            None => {
-                self.report.error(
-                    "missing-parameter",
-                    format!("{} has no `indices`", params.what),
-                    params.span,
-                );
+        let mut indices = params.indices(&mut self.report, "indices", count)?;
+        if params.any("indices").is_none() {
+            if count != N {
+                let text = format!("{} has no `indices`", params.what);
+                self.report.error("missing-parameter", text, params.span);
                 return None;
             }
-        };
+            indices = (0..N as u32).collect();
+        }
         if indices.len() % N != 0 {
             let text = format!("{} has {} indices, which {N} do not divide", params.what, indices.len());
             self.report.error("parameter", text, params.span);

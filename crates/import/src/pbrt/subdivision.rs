@@ -6,7 +6,7 @@ use std::f64::consts::PI;
 use scenefile::desc::Triple;
 
 use super::surfaces::Mesh;
-use crate::matrix::{add, cross, times, wide};
+use crate::matrix::{add, cross, dot, sub, times, wide};
 
 /// Neighbours of a vertex in order around it; those of a border begin and end on it.
 struct Ring {
@@ -128,13 +128,12 @@ fn normal(p: [f64; 3], ring: &Ring, points: &[[f64; 3]]) -> [f64; 3] {
                 })
             }
         };
-        // Of more than four neighbours the sum points out of the surface, of fewer into it.
-        if n > 4 {
-            t = times(t, -1.0);
-        }
-        return cross(t, s).map(|x| -x);
     }
-    cross(s, t)
+    let across = cross(s, t);
+    // Tangents of a border do not say which way is out; the triangles around do.
+    let edge = |i: usize| sub(at(i), p);
+    let front = (1..n).fold([0.0; 3], |front, i| add(front, cross(edge(i - 1), edge(i))));
+    if dot(front, across) < 0.0 { times(across, -1.0) } else { across }
 }
 
 /// The neighbours of every vertex, counter-clockwise.
@@ -177,7 +176,7 @@ fn ring(mut spokes: Vec<(u32, u32)>) -> Option<Ring> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::matrix::{dot, length, sub};
+    use crate::matrix::length;
 
     #[test]
     fn an_octahedron_becomes_round() {

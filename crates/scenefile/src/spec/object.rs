@@ -90,7 +90,13 @@ const SHAPES: &[Variant] = &[
         name: "mesh",
         doc: "A mesh file, OBJ or PLY.",
         keys: &[&[
-            key("file", Kind::File(&["obj", "ply", "ply.gz"]), "", Required, "The mesh; relative to the scene file."),
+            key(
+                "file",
+                Kind::File(&["obj", "ply", "ply.gz"]),
+                "",
+                Required,
+                "The mesh; relative to the scene file.",
+            ),
             SHADING,
             CREASE,
         ]],
