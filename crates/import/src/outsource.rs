@@ -4,7 +4,7 @@ use std::fmt;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-use scenefile::desc::{Normals, Object, SceneDesc, Shape, Texture, Triple};
+use scenefile::desc::{LightKind, Normals, Object, SceneDesc, Shape, Texture, Triple};
 
 /// Triangles of a mesh that stays in the text.
 const FEW: usize = 64;
@@ -122,6 +122,11 @@ fn rebase(desc: &mut SceneDesc, to: &Path) {
     };
     for texture in desc.textures.values_mut() {
         if let Texture::Image { file, .. } = &mut texture.value {
+            moved(&mut file.value);
+        }
+    }
+    for light in &mut desc.lights {
+        if let LightKind::Sky { file, .. } = &mut light.value.kind {
             moved(&mut file.value);
         }
     }

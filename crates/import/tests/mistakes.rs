@@ -1,4 +1,5 @@
 //! What is said about scenes that are wrong: every place, and never a panic.
+#![allow(clippy::unwrap_used, reason = "helpers of tests, too")]
 
 use std::path::Path;
 

@@ -1,4 +1,5 @@
 //! What pbrt scenes become. Expected values follow from the format's pages and are worked out beside each.
+#![allow(clippy::unwrap_used, reason = "helpers of tests, too")]
 
 use std::io::Write;
 use std::path::Path;
@@ -167,7 +168,7 @@ fn lights() {
                 LightSource \"point\" \"blackbody I\" 6504\n\
                 LightSource \"point\" \"spectrum I\" [300 7 900 7]\n";
     let desc = world(&format!("{text}{TRIANGLE}"));
-    let kinds: Vec<LightKind> = desc.lights.iter().skip(1).map(|l| l.kind).collect();
+    let kinds: Vec<LightKind> = desc.lights.iter().skip(1).map(|l| l.kind.clone()).collect();
     let intensity = |kind: &LightKind| match kind {
         LightKind::Point { amount: PointAmount::Intensity(i), .. }
         | LightKind::Spot { amount: PointAmount::Intensity(i), .. } => *i,

@@ -60,7 +60,7 @@ impl Importer {
         // pbrt-v4, PixelSensor: radiance is multiplied by the exposure time and by ISO / 100.
         let (iso, time) = (params.number_or("iso", 100.0), params.number_or("exposuretime", 1.0));
         self.gain = iso / 100.0 * time * params.number_or("scale", 1.0);
-        if !(self.gain > 0.0) {
+        if self.gain <= 0.0 {
             report.error("out-of-range", "`iso` and `exposuretime` must be greater than 0", params.span);
         }
         if let Some(sensor) = params.find("sensor", &["string"])

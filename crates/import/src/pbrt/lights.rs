@@ -109,7 +109,7 @@ impl Importer {
                 params.span,
             );
         }
-        self.desc.lights.push(Sourced::at(Light { name: None, kind: light }, params.span));
+        self.desc.lights.push(Sourced::at(Light::from(light), params.span));
     }
 
     pub(super) fn area_light(&mut self, kind: &str, at: Span, params: Params) {

@@ -201,7 +201,7 @@ impl Importer {
                 scope.span(),
             );
         }
-        if !self.in_world && !self.report.has_error() && !self.sources.iter().next().is_none() {
+        if !self.in_world && !self.report.has_error() {
             let whole = Span { file: FileId(0), start: 0, end: 0 };
             self.report.error("syntax", "there is no `WorldBegin`", whole);
         }

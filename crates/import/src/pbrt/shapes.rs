@@ -64,6 +64,7 @@ impl Importer {
             transform: place.steps(),
             flip_normals: self.graphics.reverse,
             emission,
+            light_group: None,
         };
         let object = Sourced::at(object, params.span);
         match &mut self.object {

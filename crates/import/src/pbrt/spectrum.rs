@@ -122,7 +122,7 @@ impl Curve {
             text.lines().map(|l| l.split('#').next().unwrap_or_default()).flat_map(str::split_whitespace);
         let numbers: Vec<f64> = words.map(|w| w.trim_end_matches(',').parse().ok()).collect::<Option<_>>()?;
         let finite = numbers.iter().all(|x| x.is_finite());
-        (finite && numbers.len() % 2 == 0).then(|| Self::from_pairs(&numbers))?
+        (finite && numbers.len().is_multiple_of(2)).then(|| Self::from_pairs(&numbers))?
     }
 
     /// Whether the data behind the name are here.
