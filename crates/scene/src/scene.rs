@@ -122,6 +122,7 @@ impl Scene {
 
     /// What is left of light after `distance` (may be infinite) in the dielectric that `medium` bounds (`None`: in
     /// vacuum): e^(−σ·d) (Beer–Lambert).
+    #[inline(never)]
     pub fn transmittance(&self, medium: Option<MaterialId>, distance: f32) -> Lanes {
         let Some(id) = medium else { return Lanes::ONE };
         let absorption = self.materials[id.0 as usize].absorption();

@@ -2,7 +2,7 @@ use bsdf::{Bsdf, DeltaLobe, Lobes, TransportMode};
 use color::Lanes;
 use math::{Ray, Vec3};
 use sampling::Sampler;
-use scene::{Boundary, MaterialId, MediumStack, Scene, SurfaceInteraction};
+use scene::{Boundary, MaterialId, Medium, MediumStack, Scene, SurfaceInteraction};
 
 /// Scattering events after which every walk may end.
 pub const ENDLESS_DEPTH: u32 = 64;
@@ -67,11 +67,9 @@ impl Vertex {
     /// What is left, after `distance`, of light that leaves or arrives along `w` without meeting a surface.
     #[inline]
     pub fn transmittance(&self, scene: &Scene, w: Vec3, distance: f32) -> Lanes {
-        if scene.absorbs() { self.attenuation(scene, w, distance) } else { Lanes::ONE }
-    }
-
-    #[inline(never)]
-    fn attenuation(&self, scene: &Scene, w: Vec3, distance: f32) -> Lanes {
+        if !scene.absorbs() {
+            return Lanes::ONE;
+        }
         let same = (w.dot(self.hit.ng) > 0.0) == (self.wo.dot(self.hit.ng) > 0.0);
         scene.transmittance(if same { self.sides.seen } else { self.sides.beyond }, distance)
     }
@@ -133,12 +131,12 @@ impl<'s> Walk<'s> {
         for _ in 0..4096 {
             let Some(hit) = self.scene.intersect(&self.ray) else {
                 if self.scene.absorbs() {
-                    self.attenuate(f32::INFINITY);
+                    self.throughput *= left(self.scene, &{ self.media }, f32::INFINITY);
                 }
                 return None;
             };
             if self.scene.absorbs() {
-                self.attenuate(hit.t);
+                self.throughput *= left(self.scene, &{ self.media }, hit.t);
             }
             self.footprint += self.spread * hit.t;
             let eta = match self.scene.boundary(&hit, &self.media, self.ray.direction) {
@@ -157,25 +155,15 @@ impl<'s> Walk<'s> {
             };
             let wo = -self.ray.direction;
             let bsdf = self.scene.bsdf(&hit, wo, eta, self.footprint);
-            let sides = if self.scene.absorbs() { self.sides(&hit) } else { Sides::default() };
+            let sides = if self.scene.absorbs() {
+                let medium = self.scene.medium(&hit);
+                sides(&{ self.media }, medium, self.ray.direction.dot(hit.ng) < 0.0)
+            } else {
+                Sides::default()
+            };
             return Some(Vertex { hit, bsdf, wo, footprint: self.footprint, sides });
         }
         None
-    }
-
-    /// What the dielectric around the ray absorbs on the way.
-    #[inline(never)]
-    fn attenuate(&mut self, distance: f32) {
-        let medium = self.media.current().map(|m| m.material);
-        self.throughput *= self.scene.transmittance(medium, distance);
-    }
-
-    #[inline(never)]
-    fn sides(&self, hit: &SurfaceInteraction) -> Sides {
-        let mut beyond = *self;
-        beyond.cross(hit);
-        let filling = |walk: &Self| walk.media.current().map(|m| m.material);
-        Sides { seen: filling(self), beyond: filling(&beyond) }
     }
 
     /// Moves the medium stack through the boundary at `hit`.
@@ -299,4 +287,19 @@ impl<'s> Walk<'s> {
     pub fn last(&self) -> Option<&Scattered> {
         self.last.as_ref()
     }
+}
+
+/// What the dielectric that rules in `media` leaves of light after `distance`. Out of the way, and given a copy, so that a
+/// walk need not lie in memory.
+#[inline(never)]
+fn left(scene: &Scene, media: &MediumStack, distance: f32) -> Lanes {
+    scene.transmittance(media.current().map(|m| m.material), distance)
+}
+
+/// What fills both sides of a surface that bounds `medium`, for a ray in `media` that would enter it or leave.
+#[inline(never)]
+fn sides(media: &MediumStack, medium: Option<Medium>, entering: bool) -> Sides {
+    let filling = |media: &MediumStack| media.current().map(|m| m.material);
+    let beyond = medium.map_or(*media, |medium| media.crossed(medium, entering));
+    Sides { seen: filling(media), beyond: filling(&beyond) }
 }
