@@ -260,6 +260,11 @@ fn materials_of_version_4() {
         panic!()
     };
     assert_eq!(reflectance, ColorDesc::Rgb([0.4; 3]));
+    let text = "MakeNamedMaterial \"a\" \"string type\" \"diffuse\"\nMakeNamedMaterial \"b\" \"string type\" \"thindielectric\"\n\
+                Material \"mix\" \"string materials\" [\"a\" \"b\"] \"float amount\"";
+    let MaterialKind::Mix { a, b, amount } = material(&format!("{text} .25")) else { panic!() };
+    assert_eq!((a, b, amount), ("a".into(), "b".into(), 0.25.into()));
+    assert!(matches!(material(&format!("{text} 1")), MaterialKind::ThinDielectric(_)));
     // A surface that only bounds a medium is not there.
     assert!(
         world(&format!("Material \"interface\"\n{TRIANGLE}Material \"diffuse\"\n{TRIANGLE}")).objects.len()

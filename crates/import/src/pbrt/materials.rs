@@ -1,10 +1,10 @@
 //! Materials of pbrt-v4 and, by their names, of v3.
 
-use scenefile::Span;
 use scenefile::desc::{
     CoatedConductor, CoatedDiffuse, ColorDesc, Conductor, Dielectric, Facets, FloatDesc, Material,
-    MaterialKind, Metal, Roughness, ThinDielectric,
+    MaterialKind, MaterialRef, Metal, Roughness, ThinDielectric,
 };
+use scenefile::{Sourced, Span};
 
 use super::Importer;
 use super::lower::MaterialUse;
@@ -19,6 +19,12 @@ enum Remap {
     Root,
     /// pbrt-v3: a polynomial in the logarithm.
     Logarithm,
+}
+
+/// What a mix comes to.
+enum Mixed {
+    One(MaterialUse),
+    Both(Box<MaterialKind>),
 }
 
 impl Remap {
@@ -45,7 +51,8 @@ impl Importer {
         let material = match kind {
             "interface" | "none" | "" => return MaterialUse::Interface,
             "mix" => match self.mixed(params) {
-                Some(used) => return used,
+                Some(Mixed::One(used)) => return used,
+                Some(Mixed::Both(kind)) => (*kind).into(),
                 None => Material::diffuse(0.5),
             },
             _ => match self.scattering(kind, params) {
@@ -60,8 +67,8 @@ impl Importer {
         self.add_material(name.unwrap_or(kind), material, params.span)
     }
 
-    /// One of a mix's two materials.
-    fn mixed(&mut self, params: &Params) -> Option<MaterialUse> {
+    /// Two materials by chance; one where the other has no share.
+    fn mixed(&mut self, params: &Params) -> Option<Mixed> {
         let names: Vec<String> = match params.find("materials", &["string"]).map(|p| &p.values) {
             Some(super::params::Values::Texts(names)) => names.clone(),
             // Version 3.
@@ -72,27 +79,38 @@ impl Importer {
                 .collect(),
         };
         let amount = match params.find("amount", &["rgb"]).and_then(|p| p.triple()) {
-            // Version 3: the share of the first.
-            Some(rgb) => 1.0 - (rgb[0] + rgb[1] + rgb[2]) / 3.0,
-            None => match self.float(params, "amount") {
-                Some(FloatDesc::Value(x)) => f64::from(x),
-                _ => 0.5,
+            // Version 3: the share of the first, by channel.
+            Some(rgb) => {
+                if rgb[0] != rgb[1] || rgb[1] != rgb[2] {
+                    let text = "a mix by channel is not rendered";
+                    self.report.instead(text, "the mean of its shares is taken", params.span);
+                }
+                FloatDesc::Value((1.0 - (rgb[0] + rgb[1] + rgb[2]) / 3.0).clamp(0.0, 1.0) as f32)
+            }
+            None => match self.float(params, "amount").unwrap_or(0.5.into()) {
+                FloatDesc::Value(share) => FloatDesc::Value(share.clamp(0.0, 1.0)),
+                texture => texture,
             },
         };
         let [first, second] = &names[..] else {
-            self.report.error(
-                "missing-parameter",
-                format!("{} does not name two materials", params.what),
-                params.span,
-            );
+            let text = format!("{} does not name two materials", params.what);
+            self.report.error("missing-parameter", text, params.span);
             return None;
         };
-        let chosen = if amount > 0.5 { second } else { first };
-        if amount > 0.0 && amount < 1.0 {
-            let text = "a mix of materials is not rendered";
-            self.report.instead(text, "the one of the greater share takes its place", params.span);
-        }
-        Some(self.named_material(chosen, params.span))
+        let [a, b] = [first, second].map(|name| self.named_material(name, params.span));
+        Some(match (a, b, &amount) {
+            (a, _, FloatDesc::Value(0.0)) => Mixed::One(a),
+            (_, b, FloatDesc::Value(1.0)) => Mixed::One(b),
+            (MaterialUse::Key(a), MaterialUse::Key(b), _) => {
+                let named = |key| MaterialRef::Named(Sourced::at(key, params.span));
+                Mixed::Both(Box::new(MaterialKind::Mix { a: named(a), b: named(b), amount }))
+            }
+            (one @ MaterialUse::Key(_), _, _) | (_, one, _) => {
+                let text = "a mix with an interface is not rendered";
+                self.report.instead(text, "the other material takes its place", params.span);
+                Mixed::One(one)
+            }
+        })
     }
 
     fn scattering(&mut self, kind: &str, params: &Params) -> Option<Material> {
@@ -400,15 +418,15 @@ impl Importer {
         let path = self.find_file(map.text().unwrap_or_default());
         let key = super::lower::free_name(&self.desc.textures, "normalmap");
         let image = scenefile::desc::Texture::Image {
-            file: scenefile::Sourced::at(path, map.span),
+            file: Sourced::at(path, map.span),
             color_space: scenefile::desc::ColorSpace::Linear,
             wrap: Default::default(),
             filter: Default::default(),
             scale: [1.0; 2],
             offset: [0.0; 2],
         };
-        self.desc.textures.insert(key.clone(), scenefile::Sourced::at(image, map.span));
-        Material { normal_map: Some(scenefile::Sourced::at(key, map.span)), ..material }
+        self.desc.textures.insert(key.clone(), Sourced::at(image, map.span));
+        Material { normal_map: Some(Sourced::at(key, map.span)), ..material }
     }
 }
 
