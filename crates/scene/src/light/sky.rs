@@ -149,7 +149,7 @@ impl SkyLight {
         Lanes::rgb(r, g, b)
     }
 
-    /// Density per steradian with which [`Self::sample_li`] draws `w`.
+    /// Density per steradian with which light sampling draws `w`.
     pub fn pdf_w(&self, w: Vec3) -> f32 {
         let [x, y] = self.place(w);
         let i = (x as usize).min(self.width - 1);
