@@ -47,7 +47,7 @@ fn a_signal_that_comes_twice_is_one() {
 #[test]
 fn the_second_interrupt_ends_at_once() {
     let place = Place::new();
-    let slow = ["--size", "512x512", "--set", "photon_map.final_gather=4096"];
+    let slow = ["--integrator", "photon_map", "--size", "512x512", "--set", "photon_map.final_gather=4096"];
     let mut started = place.start(&[&FOREVER[..], &slow].concat());
     started.wait_for(" map:");
     started.signal("INT");
