@@ -183,7 +183,9 @@ pub fn ratio(vertex: &Vertex, back: Vec3, on: Vec3) -> f64 {
     let ng = vertex.hit.ng;
     let (cos_back, cos_on) = (f64::from(ng.dot(back)), f64::from(ng.dot(on)));
     match *vertex.bsdf.kind() {
-        BsdfKind::Dielectric { eta, .. } if cos_back * cos_on < 0.0 => {
+        BsdfKind::Dielectric { eta, .. } | BsdfKind::RoughDielectric { eta, .. }
+            if cos_back * cos_on < 0.0 =>
+        {
             let eta = if cos_back > 0.0 { f64::from(eta) } else { 1.0 / f64::from(eta) };
             (cos_back / cos_on).abs() / (eta * eta)
         }
