@@ -8,7 +8,10 @@ use color::Lanes;
 
 use super::source::{ColorSource, FloatSource, Place, RoughnessSource};
 
-const ONE: ColorSource = ColorSource::Constant(Lanes::ONE);
+/// Whether a factor changes nothing. Only the lanes that colours fill are compared.
+fn is_one(factor: ColorSource) -> bool {
+    matches!(factor, ColorSource::Constant(lanes) if lanes.to_rgb() == [1.0; 3])
+}
 
 /// A dielectric solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,7 +41,7 @@ impl DielectricMaterial {
 
     pub(super) fn bsdf(&self, at: &Place<'_>, eta: f32) -> BsdfKind {
         let tint = at.color(self.color);
-        if self.specular == ONE && self.film[0] == 0.0 && self.roughness.is_smooth() {
+        if is_one(self.specular) && self.film[0] == 0.0 && self.roughness.is_smooth() {
             return BsdfKind::Dielectric { eta, tint };
         }
         BsdfKind::RoughDielectric {
@@ -79,7 +82,7 @@ impl ConductorMaterial {
         let &Self { n, k, facets, film, .. } = self;
         let alpha = self.roughness.alpha(at);
         let plain = facets == Facets::Conserving || self.roughness.is_smooth();
-        if self.specular == ONE && film.is_none() && plain && alpha[0] == alpha[1] {
+        if is_one(self.specular) && film.is_none() && plain && alpha[0] == alpha[1] {
             return BsdfKind::Conductor { n, k, alpha: alpha[0] };
         }
         BsdfKind::RoughConductor { n, k, reflectance: at.color(self.specular), alpha, facets, film }
