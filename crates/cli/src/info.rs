@@ -44,6 +44,7 @@ pub fn settings(text: &mut String, desc: &SceneDesc) {
     let [w, h] = desc.film.size;
     let filter = match desc.film.filter {
         FilterKind::Box => "box",
+        FilterKind::Triangle => "triangle",
         FilterKind::Gaussian => "gaussian",
         FilterKind::Mitchell => "mitchell",
         FilterKind::BlackmanHarris => "blackman-harris",

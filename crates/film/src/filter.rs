@@ -12,6 +12,8 @@ const GUIDES: usize = 512;
 pub enum FilterKind {
     /// Constant. Default radius 0.5: the pixel's own square.
     Box,
+    /// 1 − |x|/radius. Default radius 2.
+    Triangle,
     /// exp(−x²/2σ²) less its value at the edge, σ = radius/3. Default radius 1.5, so σ = 0.5.
     Gaussian,
     /// Mitchell & Netravali 1988, B = C = 1/3, eq. 8, stretched to the radius. Default radius 2. It has negative
@@ -23,12 +25,14 @@ pub enum FilterKind {
 
 impl FilterKind {
     /// All kinds.
-    pub const ALL: [Self; 4] = [Self::Box, Self::Gaussian, Self::Mitchell, Self::BlackmanHarris];
+    pub const ALL: [Self; 5] =
+        [Self::Box, Self::Triangle, Self::Gaussian, Self::Mitchell, Self::BlackmanHarris];
 
     /// The name in scene files.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Box => "box",
+            Self::Triangle => "triangle",
             Self::Gaussian => "gaussian",
             Self::Mitchell => "mitchell",
             Self::BlackmanHarris => "blackman-harris",
@@ -45,7 +49,7 @@ impl FilterKind {
         match self {
             Self::Box => 0.5,
             Self::Gaussian => 1.5,
-            Self::Mitchell | Self::BlackmanHarris => 2.0,
+            Self::Triangle | Self::Mitchell | Self::BlackmanHarris => 2.0,
         }
     }
 
@@ -53,6 +57,7 @@ impl FilterKind {
     fn profile(self, t: f64) -> f64 {
         match self {
             Self::Box => 1.0,
+            Self::Triangle => 1.0 - t,
             Self::Gaussian => (-4.5 * t * t).exp() - (-4.5f64).exp(),
             Self::Mitchell => {
                 // Mitchell & Netravali 1988, eq. 8, B = C = 1/3, times 18; x in [0, 2].

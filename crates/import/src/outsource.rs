@@ -4,7 +4,7 @@ use std::fmt;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-use scenefile::desc::{LightKind, Normals, Object, SceneDesc, Shape, Texture, Triple};
+use scenefile::desc::{Image, ImageSource, LightKind, Normals, Object, SceneDesc, Shape, Texture, Triple};
 
 /// Triangles of a mesh that stays in the text.
 const FEW: usize = 64;
@@ -59,7 +59,7 @@ pub fn outsource(desc: &mut SceneDesc, scene: &Path) -> Result<Vec<PathBuf>, Out
 /// The PLY file of a large mesh in place.
 fn ply_of(object: &Object) -> Option<Vec<u8>> {
     match &object.shape.value {
-        Shape::Triangles { positions, indices, vertex_normals, uvs, normals } if indices.len() > FEW => {
+        Shape::Triangles { positions, indices, vertex_normals, uvs, normals, .. } if indices.len() > FEW => {
             // Where normals are made anew those given do not matter.
             let given = if *normals == Normals::Given { &vertex_normals[..] } else { &[] };
             Some(ply(positions, given, uvs, indices))
@@ -121,13 +121,17 @@ fn rebase(desc: &mut SceneDesc, to: &Path) {
         }
     };
     for texture in desc.textures.values_mut() {
-        if let Texture::Image { file, .. } = &mut texture.value {
+        if let Texture::Image(Image { source: ImageSource::File(file), .. }) = &mut texture.value {
             moved(&mut file.value);
         }
     }
     for light in &mut desc.lights {
-        if let LightKind::Sky { file, .. } = &mut light.value.kind {
-            moved(&mut file.value);
+        match &mut light.value.kind {
+            LightKind::Sky { source: ImageSource::File(file), .. }
+            | LightKind::Goniometric { source: ImageSource::File(file), .. }
+            | LightKind::Projector { source: ImageSource::File(file), .. }
+            | LightKind::Profile { file, .. } => moved(&mut file.value),
+            _ => {}
         }
     }
     let groups = desc.groups.values_mut().flat_map(|group| &mut group.value.objects);

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use nephroid_import::{load, strict};
 use scenefile::desc::{
-    CameraKind, ColorDesc, EmissionAmount, FovAxis, IntegratorKind, LightKind, MaterialKind, MaterialRef,
-    Metal, Object, PointAmount, Roughness, SceneDesc, Shape, Texture, TransformStep,
+    CameraKind, ColorDesc, EmissionAmount, FovAxis, IntegratorKind, LightKind, Mapping, MaterialKind,
+    MaterialRef, Metal, Object, PointAmount, Roughness, SceneDesc, Shape, Texture, TransformStep,
 };
 use scenefile::{Loaded, Severity};
 
@@ -198,7 +198,7 @@ fn area_lights_and_the_film() {
                 AreaLightSource \"diffuse\" \"rgb L\" [1 1 .4] \"float power\" 30\nShape \"disk\"\n\
                 AreaLightSource \"diffuse\" \"rgb L\" [0 0 0]\nShape \"disk\"\n";
     let desc = desc(&format!("{head}{HEAD}{text}"));
-    let emission: Vec<_> = desc.objects.iter().map(|o| o.emission.as_ref().map(|e| e.value)).collect();
+    let emission: Vec<_> = desc.objects.iter().map(|o| o.emission.as_deref()).collect();
     let first = emission[0].unwrap();
     assert!(first.two_sided);
     // Half as bright: 0.25 s at twice the speed.
@@ -311,10 +311,11 @@ fn textures() {
     assert!(loaded.diagnostics.is_empty(), "{}", loaded.render());
     let desc = loaded.desc.unwrap();
     // pbrt's squares have side 1 in scaled coordinates.
-    let Texture::Checker { a, b, scale } = &desc.textures["board"].value else { panic!() };
-    assert_eq!((a, b, scale), (&ColorDesc::Rgb([0.5, 0.25, 0.25]), &ColorDesc::Rgb([0.0; 3]), &[4.0, 2.0]));
-    let Texture::Image { file, .. } = &desc.textures["map"].value else { panic!() };
-    assert_eq!(file.value, Path::new("maps/a.png"));
+    let Texture::Checker { a, b, mapping } = &desc.textures["board"].value else { panic!() };
+    assert_eq!((a, b), (&ColorDesc::Rgb([0.5, 0.25, 0.25]), &ColorDesc::Rgb([0.0; 3])));
+    assert_eq!(*mapping, Mapping::scaled([4.0, 2.0]));
+    let Texture::Image(image) = &desc.textures["map"].value else { panic!() };
+    assert_eq!(image.source.file().unwrap().value, Path::new("maps/a.png"));
     assert!(
         matches!(kind(&desc, &desc.objects[2]), MaterialKind::Conductor(c) if c.roughness == Roughness::alpha(0.25))
     );

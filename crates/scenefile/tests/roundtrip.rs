@@ -215,6 +215,9 @@ impl Dice {
             opacity_cutoff: self.coin().then(|| self.unit()),
             normal_map: self.coin().then(|| "plain".into()),
             normal_strength: self.unit() * 2.0,
+            bump_map: None,
+            bump_height: 1.0,
+            rotation: 0.0.into(),
             two_sided: !kind.has_two_sided() || self.coin(),
             kind,
         }
@@ -268,6 +271,8 @@ impl Dice {
                     indices: vec![[0, 1, 2], [0, 2, 3]],
                     vertex_normals: if full { vec![center; 4] } else { vec![] },
                     uvs: if full { vec![] } else { vec![[self.number(), self.number()]; 4] },
+                    uvs2: vec![],
+                    colors: vec![],
                     normals: self.normals(),
                 }
             }
@@ -334,7 +339,8 @@ impl Dice {
             material,
             transform: self.steps(),
             flip_normals: self.coin(),
-            emission: emission.map(|amount| Emission { amount, two_sided: self.coin() }.into()),
+            emission: emission
+                .map(|amount| Emission { amount, texture: None, two_sided: self.coin() }.into()),
             light_group,
         }
         .into()
@@ -349,7 +355,8 @@ impl Dice {
         let position = self.triple();
         let kind = match self.below(5) {
             4 => LightKind::Sky {
-                file: "wölk \"1\".hdr".into(),
+                source: "wölk \"1\".hdr".into(),
+                mapping: SkyMapping::LatLong,
                 scale: self.amount(),
                 transform: self.steps(),
             },
@@ -371,17 +378,16 @@ impl Dice {
         let scale = if self.coin() { [scale[0]; 2] } else { scale };
         if self.coin() {
             let color = |dice: &mut Self| [dice.unit(), dice.positive(), 0.0].into();
-            return Texture::Checker { a: color(self), b: color(self), scale };
+            return Texture::Checker { a: color(self), b: color(self), mapping: Mapping::scaled(scale) };
         }
-        Texture::Image {
-            file: "pic\\ture.png".into(),
+        Texture::Image(Image {
             color_space: if self.coin() { ColorSpace::Srgb } else { ColorSpace::Linear },
-            wrap: [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror][self.below(3) as usize],
+            wrap: [[Wrap::Repeat, Wrap::Clamp, Wrap::Mirror][self.below(3) as usize]; 2],
             filter: [TextureFilter::Trilinear, TextureFilter::Bilinear, TextureFilter::Nearest]
                 [self.below(3) as usize],
-            scale,
-            offset,
-        }
+            mapping: Mapping::Uv { set: 0, scale, rotation: 0.0, offset },
+            ..Image::new("pic\\ture.png")
+        })
     }
 
     fn camera(&mut self) -> Camera {
@@ -396,6 +402,7 @@ impl Dice {
             look_at: self.direction(),
             up: [0.0, 1e3, 1e-3],
             fov: 1.0 + self.unit() * 178.0,
+            shift: [self.unit(), 0.0],
             fov_axis: [FovAxis::X, FovAxis::Y, FovAxis::Smaller][self.below(3) as usize],
         }
     }
@@ -487,6 +494,8 @@ fn numbers_keep_every_bit() {
             indices: vec![[0, 1, 2]],
             vertex_normals: vec![],
             uvs: vec![],
+            uvs2: vec![],
+            colors: vec![],
             normals: Normals::Given,
         };
         desc.objects = vec![Object::lamp(shape, Emission::power(1.0)).into()];

@@ -52,19 +52,22 @@ pub(crate) fn canonical(desc: &SceneDesc) -> SceneDesc {
 /// The files that a description names, each once, in order of their names.
 pub(crate) fn files(desc: &SceneDesc) -> BTreeSet<&Path> {
     let textures = desc.textures.values().filter_map(|texture| match &texture.value {
-        Texture::Image { file, .. } => Some(file.value.as_path()),
-        Texture::Checker { .. } => None,
+        Texture::Image(image) => image.source.file().map(|file| file.value.as_path()),
+        _ => None,
     });
     let objects = desc.objects.iter().chain(desc.groups.values().flat_map(|group| &group.objects));
     let meshes = objects.filter_map(|object| match &object.shape.value {
         Shape::Mesh { file, .. } => Some(file.value.as_path()),
         _ => None,
     });
-    let skies = desc.lights.iter().filter_map(|light| match &light.kind {
-        LightKind::Sky { file, .. } => Some(file.value.as_path()),
+    let lights = desc.lights.iter().filter_map(|light| match &light.kind {
+        LightKind::Sky { source, .. }
+        | LightKind::Goniometric { source, .. }
+        | LightKind::Projector { source, .. } => source.file().map(|file| file.value.as_path()),
+        LightKind::Profile { file, .. } => Some(file.value.as_path()),
         _ => None,
     });
-    textures.chain(meshes).chain(skies).collect()
+    textures.chain(meshes).chain(lights).collect()
 }
 
 /// The hash of what is in a file, as of a scene.

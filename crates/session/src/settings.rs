@@ -65,6 +65,7 @@ fn radius(world: Option<f32>, pixels: f32, alpha: f32) -> RadiusSettings {
 fn filter_kind(kind: desc::FilterKind) -> FilterKind {
     match kind {
         desc::FilterKind::Box => FilterKind::Box,
+        desc::FilterKind::Triangle => FilterKind::Triangle,
         desc::FilterKind::Gaussian => FilterKind::Gaussian,
         desc::FilterKind::Mitchell => FilterKind::Mitchell,
         desc::FilterKind::BlackmanHarris => FilterKind::BlackmanHarris,

@@ -146,6 +146,7 @@ impl Importer {
             up: narrow(self.mirror.vector(up)),
             fov: fov as f32,
             fov_axis,
+            shift: [0.0; 2],
         };
         self.desc.camera = Some(Sourced::at(camera, span));
     }

@@ -146,6 +146,6 @@ impl Importer {
         } else {
             EmissionAmount::Radiance(narrow(rgb))
         };
-        Some(Sourced::at(Emission { amount, two_sided }, params.span))
+        Some(Sourced::at(Emission { amount, texture: None, two_sided }, params.span))
     }
 }

@@ -1,8 +1,8 @@
 //! Materials of pbrt-v4 and, by their names, of v3.
 
 use scenefile::desc::{
-    CoatedConductor, CoatedDiffuse, ColorDesc, Conductor, Dielectric, Facets, FloatDesc, Material,
-    MaterialKind, MaterialRef, Metal, Roughness, ThinDielectric,
+    CoatedConductor, CoatedDiffuse, ColorDesc, ColorSpace, Conductor, Dielectric, Facets, FloatDesc, Image,
+    ImageSource, Material, MaterialKind, MaterialRef, Metal, Roughness, Texture, ThinDielectric,
 };
 use scenefile::{Sourced, Span};
 
@@ -417,15 +417,11 @@ impl Importer {
         let Some(map) = params.find("normalmap", &["string"]) else { return material };
         let path = self.find_file(map.text().unwrap_or_default());
         let key = super::lower::free_name(&self.desc.textures, "normalmap");
-        let image = scenefile::desc::Texture::Image {
-            file: Sourced::at(path, map.span),
-            color_space: scenefile::desc::ColorSpace::Linear,
-            wrap: Default::default(),
-            filter: Default::default(),
-            scale: [1.0; 2],
-            offset: [0.0; 2],
+        let image = Image {
+            color_space: ColorSpace::Linear,
+            ..Image::new(ImageSource::File(Sourced::at(path, map.span)))
         };
-        self.desc.textures.insert(key.clone(), Sourced::at(image, map.span));
+        self.desc.textures.insert(key.clone(), Sourced::at(Texture::Image(image), map.span));
         Material { normal_map: Some(Sourced::at(key, map.span)), ..material }
     }
 }

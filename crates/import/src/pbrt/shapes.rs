@@ -96,6 +96,8 @@ impl Importer {
             indices: mesh.indices,
             vertex_normals: mesh.normals,
             uvs: mesh.uvs,
+            uvs2: Vec::new(),
+            colors: Vec::new(),
             normals: Normals::Given,
         })
     }

@@ -2,7 +2,9 @@
 
 use std::collections::HashMap;
 
-use scenefile::desc::{ColorDesc, ColorSpace, FloatDesc, Texture, TextureFilter, Wrap};
+use scenefile::desc::{
+    ColorDesc, ColorSpace, FloatDesc, Image, ImageSource, Mapping, Texture, TextureFilter, Wrap,
+};
 use scenefile::{Sourced, Span};
 
 use super::Importer;
@@ -18,7 +20,7 @@ pub(super) struct Textures {
 }
 
 /// Scale and offset of texture coordinates.
-struct Mapping {
+struct Placed {
     scale: [f32; 2],
     offset: [f32; 2],
 }
@@ -109,7 +111,7 @@ impl Importer {
                     let text = "a checkerboard in space is not rendered";
                     self.report.instead(text, "it lies on the surface", params.span);
                 }
-                let Mapping { scale, offset } = self.mapping(params);
+                let Placed { scale, offset } = self.mapping(params);
                 if offset != [0.0; 2] {
                     let text = "the offset of a checkerboard is not rendered";
                     self.report.instead(text, "it begins at the origin", params.span);
@@ -118,7 +120,7 @@ impl Importer {
                 // pbrt's squares have side 1, ours 1/2.
                 Some(self.add_texture(
                     name,
-                    Texture::Checker { a, b, scale: scale.map(|s| s / 2.0) },
+                    Texture::Checker { a, b, mapping: Mapping::scaled(scale.map(|s| s / 2.0)) },
                     params.span,
                 ))
             }
@@ -201,7 +203,7 @@ impl Importer {
         }
     }
 
-    fn mapping(&mut self, params: &Params) -> Mapping {
+    fn mapping(&mut self, params: &Params) -> Placed {
         let names = ["uscale", "vscale", "udelta", "vdelta"];
         let [us, vs, ud, vd] = names.map(|name| params.number(name).map(|x| x as f32));
         if let Some(mapping) = params.find("mapping", &["string"])
@@ -212,7 +214,7 @@ impl Importer {
             self.report.instead(text, "the surface's own coordinates are used", mapping.span);
             params.ignore(&["v1", "v2"]);
         }
-        Mapping {
+        Placed {
             scale: [us.unwrap_or(1.0), vs.unwrap_or(1.0)],
             offset: [ud.unwrap_or(0.0), vd.unwrap_or(0.0)],
         }
@@ -225,7 +227,7 @@ impl Importer {
             return None;
         };
         let path = self.find_file(file.text().unwrap_or_default());
-        let Mapping { scale, offset } = self.mapping(params);
+        let Placed { scale, offset } = self.mapping(params);
         let color_space = match params.text("encoding") {
             None | Some("sRGB") => ColorSpace::Srgb,
             Some("linear") => ColorSpace::Linear,
@@ -259,8 +261,14 @@ impl Importer {
             self.report.instead(text, "it is taken as it is", params.span);
         }
         let file = Sourced::at(path, file.span);
-        let image = Texture::Image { file, color_space, wrap, filter, scale, offset };
-        Some(self.add_texture(name, image, params.span))
+        let image = Image {
+            color_space,
+            wrap: [wrap; 2],
+            filter,
+            mapping: Mapping::Uv { set: 0, scale, rotation: 0.0, offset },
+            ..Image::new(ImageSource::File(file))
+        };
+        Some(self.add_texture(name, Texture::Image(image), params.span))
     }
 
     fn add_texture(&mut self, name: &str, texture: Texture, span: Span) -> ColorDesc {

@@ -194,7 +194,7 @@ fn bytes_do_not_depend_on_threads() {
 fn lights_that_share_a_group_share_a_layer() {
     let mut desc = desc(IntegratorKind::Path);
     for object in &mut desc.objects {
-        if let Some(emission) = object.value.emission {
+        if let Some(emission) = object.value.emission.clone() {
             object.value.emission = Some(Emission { two_sided: true, ..emission.value }.into());
             object.value.light_group = Some("bulbs".into());
         }

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use film::encode_exr_rgb;
 use nephroid::SceneDesc;
-use nephroid::desc::{IntegratorKind, Light, LightKind, Material, Object, TransformStep};
+use nephroid::desc::{IntegratorKind, Light, LightKind, Material, Object, SkyMapping, TransformStep};
 
 use crate::support::*;
 
@@ -20,7 +20,8 @@ fn add_sky(
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("{name}.exr"));
     std::fs::write(&path, encode_exr_rgb(width, width / 2, &pixels, &[]).unwrap()).unwrap();
     let transform = vec![TransformStep::Rotate { axis: [0.0, 1.0, 0.0], degrees }];
-    desc.lights.push(Light::from(LightKind::Sky { file: path.into(), scale: [2.0; 3], transform }).into());
+    let (source, mapping) = (path.into(), SkyMapping::LatLong);
+    desc.lights.push(Light::from(LightKind::Sky { source, mapping, scale: [2.0; 3], transform }).into());
 }
 
 #[test]

@@ -75,7 +75,11 @@ pub(super) fn light(kind: &LightKind) -> Option<(Light, Option<Vec3>)> {
         LightKind::Environment { radiance } => {
             Some((Light::Environment(EnvironmentLight::new(lanes(radiance))?), None))
         }
-        LightKind::Sky { .. } => None,
+        LightKind::Sky { .. }
+        | LightKind::SunSky(_)
+        | LightKind::Profile { .. }
+        | LightKind::Goniometric { .. }
+        | LightKind::Projector { .. } => None,
     }
 }
 

@@ -377,14 +377,21 @@ impl<'d> Library<'d> {
         depth: u32,
     ) -> Option<Texture> {
         match &texture.value {
-            desc::Texture::Checker { a, b, scale } => {
+            desc::Texture::Checker { a, b, mapping } => {
                 let even = self.checker_color(a, as_normals, depth)?.into();
                 let odd = self.checker_color(b, as_normals, depth)?.into();
                 // A square of the description is half a unit wide, one of the texture a whole one.
-                let map = UvMap { scale: 2.0 * Vec2::from(*scale), offset: Vec2::ZERO };
+                let map = uv_map(mapping, 2.0);
                 Some(Texture::Checker(Checker { even, odd, map }))
             }
-            desc::Texture::Image { file, color_space, wrap, filter, scale, offset } => {
+            desc::Texture::Image(desc::Image {
+                source: desc::ImageSource::File(file),
+                color_space,
+                wrap,
+                filter,
+                mapping,
+                ..
+            }) => {
                 let path = self.desc.resolve(file);
                 let encoding = match color_space {
                     desc::ColorSpace::Srgb if !as_normals => Encoding::Srgb,
@@ -392,8 +399,8 @@ impl<'d> Library<'d> {
                 };
                 match ImageTexture::from_path(&path, encoding) {
                     Ok(mut image) => {
-                        image.wrap = match wrap {
-                            desc::Wrap::Repeat => Wrap::Repeat,
+                        image.wrap = match wrap[0] {
+                            desc::Wrap::Repeat | desc::Wrap::Black => Wrap::Repeat,
                             desc::Wrap::Clamp => Wrap::Clamp,
                             desc::Wrap::Mirror => Wrap::Mirror,
                         };
@@ -402,7 +409,7 @@ impl<'d> Library<'d> {
                             desc::TextureFilter::Bilinear => Filter::Bilinear,
                             desc::TextureFilter::Nearest => Filter::Nearest,
                         };
-                        image.map = UvMap { scale: Vec2::from(*scale), offset: Vec2::from(*offset) };
+                        image.map = uv_map(mapping, 1.0);
                         Some(Texture::Image(image))
                     }
                     Err(e) => {
@@ -413,6 +420,13 @@ impl<'d> Library<'d> {
                         None
                     }
                 }
+            }
+            _ => {
+                self.diagnostics.push(
+                    Diagnostic::error("unsupported", "this kind of texture is not rendered yet")
+                        .at(texture.span),
+                );
+                None
             }
         }
     }
@@ -439,6 +453,15 @@ impl<'d> Library<'d> {
                 }
             },
         }
+    }
+}
+
+fn uv_map(mapping: &desc::Mapping, factor: f32) -> UvMap {
+    match mapping {
+        desc::Mapping::Uv { scale, offset, .. } => {
+            UvMap { scale: factor * Vec2::from(*scale), offset: factor * Vec2::from(*offset) }
+        }
+        desc::Mapping::Planar { .. } => UvMap::default(),
     }
 }
 

@@ -9,7 +9,9 @@ use std::sync::Arc;
 
 use accel::{Bvh, Geometry};
 use math::{Bounds3, Transform, Vec3};
-use scenefile::desc::{CameraKind, FovAxis, LightKind, MaterialRef, Object as ObjectDesc, SceneDesc};
+use scenefile::desc::{
+    CameraKind, FovAxis, ImageSource, LightKind, MaterialRef, Object as ObjectDesc, SceneDesc, SkyMapping,
+};
 use scenefile::{Diagnostic, Sourced, Span};
 
 use crate::camera::{Fov, Lens};
@@ -123,7 +125,7 @@ impl<'d> Compiler<'d> {
                 Ok(solid) => placed.push(Placed {
                     solid,
                     material,
-                    emission: object.emission,
+                    emission: object.emission.clone(),
                     name: object.name.clone().unwrap_or_default(),
                     light_group: object.light_group.clone().or_else(|| object.name.clone()),
                     span: object.span,
@@ -143,19 +145,20 @@ impl<'d> Compiler<'d> {
 
     fn add_object(&mut self, placed: Placed) {
         self.bounds = self.bounds.union(placed.solid.bounds());
-        let light = placed.emission.and_then(|emission| match lights::area_light(&placed.solid, &emission) {
-            Some(light) => {
-                let group = placed.light_group.as_deref();
-                Some(self.push_light(light, placed.name.clone(), group, Some(placed.solid.a_point())))
-            }
-            None => {
-                self.diagnostics.push(
-                    Diagnostic::error("no-area", "this object shines but has no area")
-                        .at(emission.span.or(placed.span)),
-                );
-                None
-            }
-        });
+        let light =
+            placed.emission.as_ref().and_then(|emission| match lights::area_light(&placed.solid, emission) {
+                Some(light) => {
+                    let group = placed.light_group.as_deref();
+                    Some(self.push_light(light, placed.name.clone(), group, Some(placed.solid.a_point())))
+                }
+                None => {
+                    self.diagnostics.push(
+                        Diagnostic::error("no-area", "this object shines but has no area")
+                            .at(emission.span.or(placed.span)),
+                    );
+                    None
+                }
+            });
         self.aim_at(placed.material, &placed.solid, None);
         let object = self.object(placed.solid, placed.material, light, true);
         self.outer.push(Outer::Object(object));
@@ -280,14 +283,17 @@ impl<'d> Compiler<'d> {
 
     fn add_light(&mut self, light: &Sourced<scenefile::desc::Light>) {
         let built = match &light.kind {
-            LightKind::Sky { file, scale, transform } => {
-                lights::sky(&self.desc.resolve(file), *scale, transform).map(|sky| (sky, None)).map_err(
-                    |reason| {
-                        let message = format!("cannot light by `{}`: {reason}", file.display());
-                        Diagnostic::error("bad-image", message).at(file.span)
-                    },
-                )
-            }
+            LightKind::Sky {
+                source: ImageSource::File(file),
+                mapping: SkyMapping::LatLong,
+                scale,
+                transform,
+            } => lights::sky(&self.desc.resolve(file), *scale, transform).map(|sky| (sky, None)).map_err(
+                |reason| {
+                    let message = format!("cannot light by `{}`: {reason}", file.display());
+                    Diagnostic::error("bad-image", message).at(file.span)
+                },
+            ),
             kind => lights::light(kind).ok_or_else(|| {
                 let message = "this light has a direction of length zero or a value that is no number";
                 Diagnostic::error("bad-light", message).at(light.span)
@@ -340,7 +346,7 @@ impl<'d> Compiler<'d> {
         };
         let (position, look_at) = (Vec3::from(camera.position), Vec3::from(camera.look_at));
         let lens = match camera.kind {
-            CameraKind::Pinhole => None,
+            CameraKind::Pinhole | CameraKind::Orthographic { .. } | CameraKind::Spherical { .. } => None,
             CameraKind::ThinLens { lens_radius, focus_distance } => Some(Lens {
                 radius: lens_radius,
                 focus_distance: focus_distance.unwrap_or(position.distance(look_at)),

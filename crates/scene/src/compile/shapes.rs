@@ -75,7 +75,7 @@ fn solid(desc: &SceneDesc, shape: &ShapeDesc) -> Result<Solid, MeshError> {
         ShapeDesc::Quad { origin, edge_u, edge_v } => shapes::quad(v(*origin), v(*edge_u), v(*edge_v)),
         ShapeDesc::Corners { corners } => four_corners(corners.map(v)),
         ShapeDesc::Mesh { file, normals } => with_normals(mesh::read(desc.resolve(file))?, *normals),
-        ShapeDesc::Triangles { positions, indices, vertex_normals, uvs, normals } => {
+        ShapeDesc::Triangles { positions, indices, vertex_normals, uvs, normals, .. } => {
             let mesh = TriangleMesh {
                 positions: positions.iter().copied().map(v).collect(),
                 normals: vertex_normals.iter().map(|n| v(*n).normalize_or_zero()).collect(),

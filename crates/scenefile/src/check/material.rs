@@ -12,7 +12,8 @@ const DEEPEST_MIX: u32 = 6;
 impl Checker<'_> {
     pub(super) fn material(&self, report: &mut Report, what: &str, material: &Material, span: Option<Span>) {
         self.float(report, what, &material.opacity);
-        if let Some(name) = &material.normal_map {
+        self.float(report, what, &material.rotation);
+        for name in material.normal_map.iter().chain(&material.bump_map) {
             self.texture_name(report, what, name);
         }
         match &material.kind {

@@ -9,13 +9,13 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
 use crate::desc::{
-    ColorDesc, EmissionAmount, FloatDesc, LightKind, MaterialRef, Object, PointAmount, SceneDesc, Shape,
-    Texture, TransformStep, Triple,
+    ColorDesc, EmissionAmount, FloatDesc, ImageSource, LightKind, MaterialRef, Object, PointAmount,
+    SceneDesc, Shape, Texture, TransformStep, Triple,
 };
 use crate::diagnostic::{Diagnostic, Report, quoted};
 use crate::nearest::nearest;
 use crate::source::{FileId, Sourced, Span};
-use crate::spec::{Kind, LIGHTS, OBJECTS, TEXTURES};
+use crate::spec::{Kind, LIGHTS, OBJECTS, TEXTURES, Variant};
 
 /// Checks names, files and geometry of a description from anywhere: a scene file, an importer, code. Ranges of single
 /// values are the reader's business and not checked again.
@@ -183,16 +183,23 @@ impl Checker<'_> {
         report.push(Diagnostic::error("missing-file", message).at(file.span).maybe_help(help));
     }
 
+    fn image(
+        &self,
+        report: &mut Report,
+        what: &str,
+        source: &ImageSource,
+        variant: Option<&'static Variant>,
+    ) {
+        if let Some(file) = source.file() {
+            self.file(report, what, file, extensions(variant));
+        }
+    }
+
     fn texture(&self, report: &mut Report, name: &str, texture: &Texture) {
         let what = format!("texture {}", quoted(name));
         match texture {
-            Texture::Image { file, .. } => {
-                self.file(report, &what, file, extensions(TEXTURES.variant("image")))
-            }
-            Texture::Checker { a, b, .. } => {
-                self.color(report, &what, a);
-                self.color(report, &what, b);
-            }
+            Texture::Image(image) => self.image(report, &what, &image.source, TEXTURES.variant("image")),
+            other => other.parts().iter().for_each(|name| self.texture_name(report, &what, name)),
         }
     }
 
@@ -203,18 +210,8 @@ impl Checker<'_> {
             Open,
             Done,
         }
-        let parts = |name: &str| -> Vec<&Sourced<String>> {
-            match self.desc.textures.get(name).map(|texture| &texture.value) {
-                Some(Texture::Checker { a, b, .. }) => [a, b]
-                    .into_iter()
-                    .filter_map(|color| match color {
-                        ColorDesc::Texture(name) => Some(name),
-                        ColorDesc::Rgb(_) => None,
-                    })
-                    .collect(),
-                _ => Vec::new(),
-            }
-        };
+        let parts =
+            |name: &str| self.desc.textures.get(name).map(|texture| texture.parts()).unwrap_or_default();
         let mut marks: HashMap<&str, Mark> = HashMap::new();
         for root in self.desc.textures.keys() {
             if marks.contains_key(root.as_str()) {
@@ -276,6 +273,9 @@ impl Checker<'_> {
             };
             report.push(Diagnostic::error(code, format!("{fault} in {what}{light}")).at(object.shape.span));
         }
+        if let Some(name) = object.emission.as_ref().and_then(|emission| emission.texture.as_ref()) {
+            self.texture_name(report, what, name);
+        }
         if let Some(emission) = &object.emission
             && let EmissionAmount::Power { watts, color } = emission.amount
         {
@@ -287,6 +287,7 @@ impl Checker<'_> {
     fn light(&self, report: &mut Report, what: &str, kind: &LightKind, span: Option<Span>) {
         let direction = match kind {
             LightKind::Spot { direction, .. } | LightKind::Directional { direction, .. } => Some(direction),
+            LightKind::SunSky(sky) => Some(&sky.sun_direction),
             _ => None,
         };
         if direction.is_some_and(|d| !shape::has_length(*d)) {
@@ -294,9 +295,22 @@ impl Checker<'_> {
                 Diagnostic::error("degenerate", format!("the direction of {what} has no length")).at(span),
             );
         }
-        if let LightKind::Sky { file, transform, .. } = kind {
-            self.file(report, what, file, extensions(LIGHTS.variant("environment")));
-            steps(report, what, transform, span);
+        match kind {
+            LightKind::Sky { source, transform, .. }
+            | LightKind::Goniometric { source, transform, .. }
+            | LightKind::Projector { source, transform, .. } => {
+                self.image(report, what, source, LIGHTS.variant("environment"));
+                steps(report, what, transform, span);
+            }
+            LightKind::Profile { file, transform, .. } => {
+                self.file(report, what, file, &["ies", "ldt"]);
+                steps(report, what, transform, span);
+            }
+            LightKind::SunSky(sky) => steps(report, what, &sky.transform, span),
+            LightKind::Point { .. }
+            | LightKind::Spot { .. }
+            | LightKind::Directional { .. }
+            | LightKind::Environment { .. } => {}
         }
         if let LightKind::Point { amount, .. } | LightKind::Spot { amount, .. } = kind
             && let PointAmount::Power { watts, color } = amount
@@ -346,7 +360,7 @@ fn power(report: &mut Report, what: &str, watts: f32, color: Triple, span: Optio
 }
 
 /// The file formats of a kind, from its specification.
-fn extensions(variant: Option<&'static crate::spec::Variant>) -> &'static [&'static str] {
+fn extensions(variant: Option<&'static Variant>) -> &'static [&'static str] {
     variant
         .and_then(|variant| {
             variant.keys().find_map(|key| match key.kind {

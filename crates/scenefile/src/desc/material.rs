@@ -426,6 +426,12 @@ pub struct Material {
     pub opacity_cutoff: Option<f32>,
     /// Factor on the map's slopes; 1 as stored.
     pub normal_strength: f32,
+    /// A texture of heights (the mean of its channels) by which normals are bent, by name.
+    pub bump_map: Option<Sourced<String>>,
+    /// Height in scene units where the texture is 1.
+    pub bump_height: f32,
+    /// Turns the tangent, from growing u toward growing v, in degrees.
+    pub rotation: FloatDesc,
     /// Whether the back side scatters as the front does; else the back is black. Ignored by what
     /// light passes through.
     pub two_sided: bool,
@@ -439,6 +445,9 @@ impl From<MaterialKind> for Material {
             opacity: 1.0.into(),
             opacity_cutoff: None,
             normal_strength: 1.0,
+            bump_map: None,
+            bump_height: 1.0,
+            rotation: 0.0.into(),
             two_sided: true,
         }
     }

@@ -15,13 +15,19 @@ mod material;
 mod shape;
 mod texture;
 
-pub use light::{Emission, EmissionAmount, Light, LightKind, PointAmount, channel_power};
+pub use light::{
+    Emission, EmissionAmount, Light, LightKind, PointAmount, ProfileAmount, SkyMapping, SunSky,
+    WHITE_EFFICACY, channel_power,
+};
 pub use material::{
     CoatedConductor, CoatedDiffuse, Conductor, Dielectric, Facets, Ior, Material, MaterialKind, Metal,
     Principled, Roughness, ThinDielectric, ThinFilm,
 };
 pub use shape::{Normals, Shape, TEAPOT_PARTS, TeapotPart};
-pub use texture::{ColorDesc, ColorSpace, FloatDesc, Texture, TextureFilter, Wrap};
+pub use texture::{
+    Channel, ColorDesc, ColorSpace, EmbeddedImage, FloatDesc, Image, ImageSource, Mapping, Noise, NoiseKind,
+    Texture, TextureFilter, Wrap,
+};
 
 /// A point, vector or colour.
 pub type Triple = [f32; 3];
@@ -117,6 +123,8 @@ impl Default for Render {
 pub enum FilterKind {
     /// Constant.
     Box,
+    /// Falls linearly to 0 at its radius.
+    Triangle,
     /// Gaussian, cut at its radius.
     Gaussian,
     /// Mitchell & Netravali 1988, B = C = 1/3.
@@ -188,6 +196,17 @@ pub enum CameraKind {
         /// Distance of the plane in focus along the view direction; `None` is the distance to `look_at`.
         focus_distance: Option<f32>,
     },
+    /// Parallel rays; the field of view does not count.
+    Orthographic {
+        /// Scene units over what the field of view spans otherwise.
+        extent: f32,
+    },
+    /// All directions from one point: the picture is of the whole sphere about it, the direction that +z has in the mapping lies
+    /// toward `look_at`, +y (of equal areas: the picture's top) toward `up`.
+    Spherical {
+        /// Which direction each point of the picture stands for.
+        mapping: SkyMapping,
+    },
 }
 
 /// The side of the picture that the field of view spans.
@@ -217,6 +236,9 @@ pub struct Camera {
     pub fov: f32,
     /// What `fov` spans.
     pub fov_axis: FovAxis,
+    /// Moves the picture by this share of its width to the right and of its height up, as a lens that shifts does; what is seen
+    /// moves the other way.
+    pub shift: [f32; 2],
 }
 
 impl Default for Camera {
@@ -228,6 +250,7 @@ impl Default for Camera {
             up: [0.0, 1.0, 0.0],
             fov: 40.0,
             fov_axis: FovAxis::Smaller,
+            shift: [0.0; 2],
         }
     }
 }

@@ -90,6 +90,10 @@ pub enum Shape {
         vertex_normals: Vec<Triple>,
         /// Texture coordinates of each vertex; empty for none.
         uvs: Vec<[f32; 2]>,
+        /// A second set of texture coordinates; empty for none.
+        uvs2: Vec<[f32; 2]>,
+        /// Linear RGB and opacity of each vertex; empty for none.
+        colors: Vec<[f32; 4]>,
         /// Which shading normals to use.
         normals: Normals,
     },

@@ -1,6 +1,6 @@
 //! Lights without a surface.
 
-use crate::desc::{Light, LightKind, PointAmount, TransformStep, Triple};
+use crate::desc::{ImageSource, Light, LightKind, PointAmount, SkyMapping, TransformStep, Triple};
 use crate::diagnostic::{Diagnostic, Report};
 use crate::document::Node;
 use crate::reader::{Reader, as_table};
@@ -64,7 +64,12 @@ fn environment(report: &mut Report, r: &Reader<'_>) -> Option<LightKind> {
     if degrees != 0.0 {
         transform.insert(0, TransformStep::Rotate { axis: [0.0, 1.0, 0.0], degrees });
     }
-    Some(LightKind::Sky { file: file?, scale: scale?, transform })
+    Some(LightKind::Sky {
+        source: ImageSource::File(file?),
+        mapping: SkyMapping::LatLong,
+        scale: scale?,
+        transform,
+    })
 }
 
 /// Either `intensity` or `power` with `color`.

@@ -31,6 +31,9 @@ fn read_material(report: &mut Report, what: String, node: &Node) -> Option<Mater
         opacity: opacity?,
         opacity_cutoff: opacity_cutoff?,
         normal_strength: normal_strength?,
+        bump_map: None,
+        bump_height: 1.0,
+        rotation: 0.0.into(),
         two_sided: two_sided?,
     })
 }

@@ -58,7 +58,7 @@ fn emission(report: &mut Report, r: &Reader<'_>) -> Option<Sourced<Emission>> {
         (None, None) => return None,
     };
     Some(Sourced {
-        value: Emission { amount, two_sided: two_sided? },
+        value: Emission { amount, texture: None, two_sided: two_sided? },
         span: given.map(|entry| entry.node.span),
     })
 }
@@ -88,6 +88,8 @@ fn shape(report: &mut Report, r: &Reader<'_>) -> Option<Shape> {
                 indices: indices?,
                 vertex_normals: vertex_normals?,
                 uvs: uvs?,
+                uvs2: Vec::new(),
+                colors: Vec::new(),
                 normals: normals?,
             })
         }

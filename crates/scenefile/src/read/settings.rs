@@ -33,6 +33,7 @@ pub(super) fn film(report: &mut Report, r: &Reader<'_>, desc: &mut SceneDesc) {
     let size = r.size(report, "size");
     let filter = r.word(report, "filter").map(|word| match word {
         "box" => FilterKind::Box,
+        "triangle" => FilterKind::Triangle,
         "gaussian" => FilterKind::Gaussian,
         "mitchell" => FilterKind::Mitchell,
         _ => FilterKind::BlackmanHarris,
@@ -84,6 +85,7 @@ fn read_camera(report: &mut Report, r: &Reader<'_>) -> Option<Camera> {
         "y" => FovAxis::Y,
         _ => FovAxis::Smaller,
     });
+    let shift = r.pair(report, "shift");
     Some(Camera {
         kind: kind?,
         position: position?,
@@ -91,6 +93,7 @@ fn read_camera(report: &mut Report, r: &Reader<'_>) -> Option<Camera> {
         up: up?,
         fov: fov?,
         fov_axis: fov_axis?,
+        shift: shift?,
     })
 }
 

@@ -1,6 +1,6 @@
 //! Textures.
 
-use crate::desc::{ColorSpace, Texture, TextureFilter, Wrap};
+use crate::desc::{ColorSpace, Image, ImageSource, Mapping, Texture, TextureFilter, Wrap};
 use crate::diagnostic::Report;
 use crate::document::Node;
 use crate::reader::{Reader, as_table};
@@ -33,20 +33,19 @@ fn read_texture(report: &mut Report, what: String, node: &Node) -> Option<Textur
             });
             let scale = r.pair(report, "scale");
             let offset = r.pair(report, "offset");
-            Some(Texture::Image {
-                file: file?,
+            Some(Texture::Image(Image {
                 color_space: color_space?,
-                wrap: wrap?,
+                wrap: [wrap?; 2],
                 filter: filter?,
-                scale: scale?,
-                offset: offset?,
-            })
+                mapping: Mapping::Uv { set: 0, scale: scale?, rotation: 0.0, offset: offset? },
+                ..Image::new(ImageSource::File(file?))
+            }))
         }
         _ => {
             let a = r.color_desc(report, "a");
             let b = r.color_desc(report, "b");
             let scale = r.pair(report, "scale");
-            Some(Texture::Checker { a: a?, b: b?, scale: scale? })
+            Some(Texture::Checker { a: a?, b: b?, mapping: Mapping::scaled(scale?) })
         }
     }
 }

@@ -44,6 +44,7 @@ pub const RENDER: Section = Section {
 
 const FILTERS: &[Word] = &[
     word("box", "Constant over a pixel."),
+    word("triangle", "Falls linearly to 0; radius 2 unless filter_radius says else."),
     word("gaussian", "Gaussian."),
     word("mitchell", "Mitchell and Netravali, B = C = 1/3."),
     word("blackman-harris", "Blackman-Harris window."),
@@ -161,6 +162,13 @@ pub const CAMERA: Section = Section {
             "",
             Preset::Word("smaller"),
             "The side of the picture that fov spans.",
+        ),
+        key(
+            "shift",
+            Kind::Pair(super::ANY),
+            "",
+            Pair([0.0; 2]),
+            "Shifts the lens by this share of the picture's width to the right and of its height up.",
         ),
     ],
     example: "",

@@ -1,52 +1,132 @@
 //! Textures and materials.
 
-use super::value::{Fields, number};
+use super::value::{Fields, number, triple};
 use crate::desc::{
-    ColorSpace, Facets, Material, MaterialKind, Metal, Principled, Roughness, Texture, TextureFilter,
-    ThinFilm, Triple, Wrap,
+    Channel, ColorSpace, Facets, Image, Mapping, Material, MaterialKind, Metal, NoiseKind, Principled,
+    Roughness, Texture, TextureFilter, ThinFilm, Triple, Wrap,
 };
 use crate::spec;
 
 pub(super) fn texture_fields(texture: &Texture) -> Fields {
+    let new = |kind| Fields::new(&spec::TEXTURES, Some(kind));
     match texture {
-        Texture::Image { file, color_space, wrap, filter, scale, offset } => {
-            let mut f = Fields::new(&spec::TEXTURES, Some("image"));
-            f.text("file", &file.to_string_lossy());
-            f.word(
-                "color_space",
-                match color_space {
-                    ColorSpace::Srgb => "srgb",
-                    ColorSpace::Linear => "linear",
-                },
-            );
-            f.word(
-                "wrap",
-                match wrap {
-                    Wrap::Repeat => "repeat",
-                    Wrap::Clamp => "clamp",
-                    Wrap::Mirror => "mirror",
-                },
-            );
-            f.word(
-                "filter",
-                match filter {
-                    TextureFilter::Trilinear => "trilinear",
-                    TextureFilter::Bilinear => "bilinear",
-                    TextureFilter::Nearest => "nearest",
-                },
-            );
-            f.factor_pair("scale", *scale);
-            f.pair("offset", offset.map(number));
-            f
-        }
-        Texture::Checker { a, b, scale } => {
-            let mut f = Fields::new(&spec::TEXTURES, Some("checker"));
+        Texture::Image(image) => image_fields(image),
+        Texture::Checker { a, b, mapping: m } => {
+            let mut f = new("checker");
             f.color("a", a);
             f.color("b", b);
-            f.factor_pair("scale", *scale);
+            mapping(&mut f, m);
+            f
+        }
+        Texture::Dots { inside, outside, mapping: m } => {
+            let mut f = new("dots");
+            f.color("inside", inside);
+            f.color("outside", outside);
+            mapping(&mut f, m);
+            f
+        }
+        Texture::Product { a, b } => {
+            let mut f = new("product");
+            f.color("a", a);
+            f.color("b", b);
+            f
+        }
+        Texture::Mix { a, b, amount } => {
+            let mut f = new("mix");
+            f.color("a", a);
+            f.color("b", b);
+            f.float("amount", amount);
+            f
+        }
+        Texture::Noise(noise) => {
+            let mut f = new(match noise.kind {
+                NoiseKind::Fbm => "fbm",
+                NoiseKind::Wrinkled => "wrinkled",
+                NoiseKind::Windy => "windy",
+                NoiseKind::Marble { .. } => "marble",
+            });
+            if noise.kind != NoiseKind::Windy {
+                f.integer("octaves", noise.octaves);
+                f.number("roughness", noise.roughness);
+            }
+            if let NoiseKind::Marble { scale, variation } = noise.kind {
+                f.number("scale", scale);
+                f.number("variation", variation);
+            }
+            super::transform(&mut f, &noise.transform);
+            f
+        }
+        Texture::VertexColor { channel: c } => {
+            let mut f = new("vertex-color");
+            channel(&mut f, *c);
             f
         }
     }
+}
+
+fn image_fields(image: &Image) -> Fields {
+    let mut f = Fields::new(&spec::TEXTURES, Some("image"));
+    f.text("file", &image.source.written());
+    f.word(
+        "color_space",
+        match image.color_space {
+            ColorSpace::Srgb => "srgb",
+            ColorSpace::Linear => "linear",
+        },
+    );
+    let wrap = |wrap| match wrap {
+        Wrap::Repeat => "repeat",
+        Wrap::Clamp => "clamp",
+        Wrap::Mirror => "mirror",
+        Wrap::Black => "black",
+    };
+    let [u, v] = image.wrap;
+    f.word("wrap", wrap(u));
+    if v != u {
+        f.word("wrap_v", wrap(v));
+    }
+    f.word(
+        "filter",
+        match image.filter {
+            TextureFilter::Trilinear => "trilinear",
+            TextureFilter::Bilinear => "bilinear",
+            TextureFilter::Nearest => "nearest",
+        },
+    );
+    mapping(&mut f, &image.mapping);
+    channel(&mut f, image.channel);
+    f.bool("invert", image.invert);
+    f.color("factor", &image.factor.into());
+    f
+}
+
+fn mapping(f: &mut Fields, mapping: &Mapping) {
+    match mapping {
+        Mapping::Uv { set, scale, rotation, offset } => {
+            f.integer("uv_set", *set);
+            f.factor_pair("scale", *scale);
+            f.number("rotation", *rotation);
+            f.pair("offset", offset.map(number));
+        }
+        Mapping::Planar { u, v, offset } => {
+            f.raw("planar_u", triple(*u));
+            f.raw("planar_v", triple(*v));
+            f.pair("offset", offset.map(number));
+        }
+    }
+}
+
+fn channel(f: &mut Fields, channel: Channel) {
+    f.word(
+        "channel",
+        match channel {
+            Channel::Rgb => "rgb",
+            Channel::Red => "r",
+            Channel::Green => "g",
+            Channel::Blue => "b",
+            Channel::Alpha => "a",
+        },
+    );
 }
 
 pub(super) fn material_fields(material: &Material) -> Fields {
@@ -58,6 +138,11 @@ pub(super) fn material_fields(material: &Material) -> Fields {
     f.float("opacity", &material.opacity);
     f.optional_number("opacity_cutoff", material.opacity_cutoff);
     f.number("normal_strength", material.normal_strength);
+    if let Some(name) = &material.bump_map {
+        f.text("bump_map", name);
+        f.number("bump_height", material.bump_height);
+    }
+    f.float("rotation", &material.rotation);
     if material.kind.has_two_sided() {
         f.bool("two_sided", material.two_sided);
     }

@@ -7,8 +7,8 @@ use std::fmt::Write as _;
 
 use crate::desc::{
     Camera, CameraKind, DirectLight, Emission, EmissionAmount, FilterKind, FovAxis, Instance, Light,
-    LightKind, MaterialRef, Normals, Object, PhotonFilter, PointAmount, SceneDesc, Shape, TEAPOT_PARTS,
-    TeapotPart, TransformStep, VcmTechniques, View,
+    LightKind, MaterialRef, Normals, Object, PhotonFilter, PointAmount, ProfileAmount, SceneDesc, Shape,
+    SkyMapping, SunSky, TEAPOT_PARTS, TeapotPart, TransformStep, VcmTechniques, View,
 };
 use crate::spec::{self, Section};
 use material::{material_fields, texture_fields};
@@ -94,6 +94,7 @@ fn film(desc: &SceneDesc) -> Fields {
         "filter",
         match film.filter {
             FilterKind::Box => "box",
+            FilterKind::Triangle => "triangle",
             FilterKind::Gaussian => "gaussian",
             FilterKind::Mitchell => "mitchell",
             FilterKind::BlackmanHarris => "blackman-harris",
@@ -122,12 +123,42 @@ fn camera_fields(camera: &Camera) -> Fields {
         CameraKind::ThinLens { lens_radius, focus_distance } => {
             ("thin-lens", Some((lens_radius, focus_distance)))
         }
+        CameraKind::Orthographic { .. } => ("orthographic", None),
+        CameraKind::Spherical { .. } => ("spherical", None),
     };
     let mut f = fields(&spec::CAMERA, Some(kind));
     f.triple("position", camera.position);
     f.triple("look_at", camera.look_at);
     f.triple("up", camera.up);
-    f.number("fov", camera.fov);
+    if matches!(camera.kind, CameraKind::Pinhole | CameraKind::ThinLens { .. }) {
+        f.number("fov", camera.fov);
+    }
+    if !matches!(camera.kind, CameraKind::Spherical { .. }) {
+        axis_and_shift(&mut f, camera);
+    }
+    match camera.kind {
+        CameraKind::Orthographic { extent } => f.number("extent", extent),
+        CameraKind::Spherical { mapping } => sky_mapping(&mut f, mapping),
+        CameraKind::Pinhole | CameraKind::ThinLens { .. } => {}
+    }
+    if let Some((lens_radius, focus_distance)) = lens {
+        f.number("lens_radius", lens_radius);
+        f.optional_number("focus_distance", focus_distance);
+    }
+    f
+}
+
+fn sky_mapping(f: &mut Fields, mapping: SkyMapping) {
+    f.word(
+        "mapping",
+        match mapping {
+            SkyMapping::LatLong => "lat-long",
+            SkyMapping::EqualArea => "equal-area",
+        },
+    );
+}
+
+fn axis_and_shift(f: &mut Fields, camera: &Camera) {
     f.word(
         "fov_axis",
         match camera.fov_axis {
@@ -136,11 +167,7 @@ fn camera_fields(camera: &Camera) -> Fields {
             FovAxis::Smaller => "smaller",
         },
     );
-    if let Some((lens_radius, focus_distance)) = lens {
-        f.number("lens_radius", lens_radius);
-        f.optional_number("focus_distance", focus_distance);
-    }
-    f
+    f.pair("shift", camera.shift.map(number));
 }
 
 fn photon_map(desc: &SceneDesc) -> Fields {
@@ -260,6 +287,9 @@ fn emission_fields(f: &mut Fields, emission: &Emission) {
         EmissionAmount::Radiance(radiance) => f.triple("radiance", radiance),
         EmissionAmount::Power { watts, color } => power(f, watts, color),
     }
+    if let Some(texture) = &emission.texture {
+        f.text("emission_texture", texture);
+    }
     if emission.two_sided {
         f.raw("two_sided_emission", "true".into());
     }
@@ -311,15 +341,20 @@ fn shape_fields(shape: &Shape) -> Fields {
             normals_fields(&mut f, *normals);
             f
         }
-        Shape::Triangles { positions, indices, vertex_normals, uvs, normals } => {
+        Shape::Triangles { positions, indices, vertex_normals, uvs, uvs2, colors, normals } => {
             let mut f = new("triangles");
             f.list("positions", positions, |p| triple(*p));
             f.list("indices", indices, |t| format!("[{}, {}, {}]", t[0], t[1], t[2]));
             if !vertex_normals.is_empty() {
                 f.list("vertex_normals", vertex_normals, |n| triple(*n));
             }
-            if !uvs.is_empty() {
-                f.list("uvs", uvs, |uv| format!("[{}, {}]", number(uv[0]), number(uv[1])));
+            for (key, uvs) in [("uvs", uvs), ("uvs2", uvs2)] {
+                if !uvs.is_empty() {
+                    f.list(key, uvs, |uv| format!("[{}, {}]", number(uv[0]), number(uv[1])));
+                }
+            }
+            if !colors.is_empty() {
+                f.list("colors", colors, |c| format!("[{}]", c.map(number).join(", ")));
             }
             normals_fields(&mut f, *normals);
             f
@@ -446,10 +481,38 @@ fn light_fields(light: &Light) -> Fields {
             f = fields(&spec::LIGHTS, Some("environment"));
             f.triple("radiance", *radiance);
         }
-        LightKind::Sky { file, scale, transform: steps } => {
+        LightKind::Sky { source, mapping, scale, transform: steps } => {
             f = fields(&spec::LIGHTS, Some("environment"));
-            f.text("file", &file.to_string_lossy());
+            f.text("file", &source.written());
+            sky_mapping(&mut f, *mapping);
             f.color("scale", &(*scale).into());
+            transform(&mut f, steps);
+        }
+        LightKind::SunSky(sky) => f = sun_sky_fields(sky),
+        LightKind::Profile { file, transform: steps, amount } => {
+            f = fields(&spec::LIGHTS, Some("profile"));
+            f.text("file", &file.to_string_lossy());
+            match amount {
+                ProfileAmount::AsFile { scale, color } => {
+                    f.number("scale", *scale);
+                    f.color("color", &(*color).into());
+                }
+                ProfileAmount::Power { watts, color } => power(&mut f, *watts, *color),
+            }
+            transform(&mut f, steps);
+        }
+        LightKind::Goniometric { source, mapping, intensity, transform: steps } => {
+            f = fields(&spec::LIGHTS, Some("goniometric"));
+            f.text("file", &source.written());
+            sky_mapping(&mut f, *mapping);
+            f.triple("intensity", *intensity);
+            transform(&mut f, steps);
+        }
+        LightKind::Projector { source, fov, intensity, transform: steps } => {
+            f = fields(&spec::LIGHTS, Some("projector"));
+            f.text("file", &source.written());
+            f.number("fov", *fov);
+            f.triple("intensity", *intensity);
             transform(&mut f, steps);
         }
     }
@@ -459,6 +522,18 @@ fn light_fields(light: &Light) -> Fields {
     if let Some(group) = &light.light_group {
         f.text("light_group", group);
     }
+    f
+}
+
+fn sun_sky_fields(sky: &SunSky) -> Fields {
+    let mut f = fields(&spec::LIGHTS, Some("sun-sky"));
+    f.triple("sun_direction", sky.sun_direction);
+    f.number("turbidity", sky.turbidity);
+    f.color("ground_albedo", &sky.ground_albedo.into());
+    f.number("sun_scale", sky.sun_scale);
+    f.number("sun_angle", sky.sun_angle);
+    f.number("sky_scale", sky.sky_scale);
+    transform(&mut f, &sky.transform);
     f
 }
 
