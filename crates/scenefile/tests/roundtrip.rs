@@ -215,9 +215,9 @@ impl Dice {
             opacity_cutoff: self.coin().then(|| self.unit()),
             normal_map: self.coin().then(|| "plain".into()),
             normal_strength: self.unit() * 2.0,
-            bump_map: None,
-            bump_height: 1.0,
-            rotation: 0.0.into(),
+            bump_map: self.coin().then(|| "plain".into()),
+            bump_height: self.unit(),
+            rotation: self.float(),
             two_sided: !kind.has_two_sided() || self.coin(),
             kind,
         }

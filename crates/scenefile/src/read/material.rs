@@ -22,6 +22,9 @@ fn read_material(report: &mut Report, what: String, node: &Node) -> Option<Mater
     let opacity = r.float_desc(report, "opacity");
     let opacity_cutoff = r.optional_number(report, "opacity_cutoff");
     let normal_strength = r.number(report, "normal_strength");
+    let bump_map = r.optional_text(report, "bump_map");
+    let bump_height = r.number(report, "bump_height");
+    let rotation = r.float_desc(report, "rotation");
     let kind = kind(report, &r, r.variant()?);
     let sided = r.has("two_sided");
     let two_sided = if sided { r.bool(report, "two_sided") } else { Some(true) };
@@ -31,9 +34,9 @@ fn read_material(report: &mut Report, what: String, node: &Node) -> Option<Mater
         opacity: opacity?,
         opacity_cutoff: opacity_cutoff?,
         normal_strength: normal_strength?,
-        bump_map: None,
-        bump_height: 1.0,
-        rotation: 0.0.into(),
+        bump_map: bump_map?,
+        bump_height: bump_height?,
+        rotation: rotation?,
         two_sided: two_sided?,
     })
 }

@@ -392,6 +392,27 @@ pub const MATERIALS: Section = Section {
             Number(1.0),
             "A factor on the slopes of the normal map.",
         ),
+        key(
+            "bump_map",
+            Kind::Texture,
+            "",
+            Absent("none"),
+            "A texture of heights: the mean of its channels bends the normals.",
+        ),
+        key(
+            "bump_height",
+            Kind::Number(super::ANY),
+            "scene units",
+            Number(1.0),
+            "The height of the bump map where its texture is 1.",
+        ),
+        key(
+            "rotation",
+            NumberOrTexture(super::ANY),
+            "degrees",
+            Number(0.0),
+            "Turns the tangent, along which anisotropy lies, from growing u toward growing v.",
+        ),
     ],
     example: "",
 };

@@ -140,8 +140,8 @@ pub(super) fn material_fields(material: &Material) -> Fields {
     f.number("normal_strength", material.normal_strength);
     if let Some(name) = &material.bump_map {
         f.text("bump_map", name);
-        f.number("bump_height", material.bump_height);
     }
+    f.number("bump_height", material.bump_height);
     f.float("rotation", &material.rotation);
     if material.kind.has_two_sided() {
         f.bool("two_sided", material.two_sided);
