@@ -4,11 +4,15 @@
 //! What a format has and Nephroid does not is said once, with its place and what is done instead, as a warning.
 //! [`outsource`] moves large meshes of a description into PLY files, so that it can be written as TOML.
 
+mod curve;
 mod file;
 mod matrix;
+mod names;
 mod outsource;
 mod pbrt;
 mod report;
+mod spectrum;
+mod surfaces;
 
 use std::path::Path;
 

@@ -5,9 +5,9 @@ use scenefile::{Diagnostic, Span};
 
 use super::Importer;
 use super::params::{Param, Params, Values};
-use super::spectrum::{Curve, blackbody, is_spectrum_file};
 use crate::file;
 use crate::matrix::narrow;
+use crate::spectrum::{Curve, blackbody, is_spectrum_file};
 
 /// Bytes of an .spd file, at most.
 const MOST_SPD: u64 = 4 << 20;

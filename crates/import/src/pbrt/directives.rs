@@ -6,10 +6,10 @@ use scenefile::desc::{Group, Instance};
 use scenefile::{Diagnostic, Sourced, Span};
 
 use super::parser::{Broken, Parsed};
-use super::spectrum::Space;
 use super::state::{Graphics, Scope, Target};
 use super::{Importer, OpenObject};
 use crate::matrix::Matrix;
+use crate::spectrum::Space;
 
 impl Importer {
     pub(super) fn directive(&mut self, name: &str, span: Span) -> Parsed<()> {

@@ -1,11 +1,10 @@
 //! Names of what is written, and materials by name.
 
-use std::collections::BTreeMap;
-
 use scenefile::desc::{Material, MaterialRef};
 use scenefile::{Sourced, Span};
 
 use super::Importer;
+use crate::names::free_name;
 
 /// What a surface is made of.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,22 +13,6 @@ pub(super) enum MaterialUse {
     Key(String),
     /// Nothing: a surface that only bounds a medium.
     Interface,
-}
-
-/// A name that is not taken: the wanted one, or that with a number.
-pub(super) fn free_name<T>(taken: &BTreeMap<String, T>, wanted: &str) -> String {
-    if !wanted.is_empty() && !taken.contains_key(wanted) {
-        return wanted.to_owned();
-    }
-    // As many names as there are keys cannot all be taken; numbers begin near where they end.
-    let mut n = 2;
-    let mut step = 1;
-    let name = |n: usize| format!("{wanted}-{n}");
-    while taken.contains_key(&name(n)) {
-        n += step;
-        step *= 2;
-    }
-    name(n)
 }
 
 impl Importer {

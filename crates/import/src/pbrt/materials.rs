@@ -9,8 +9,8 @@ use scenefile::{Sourced, Span};
 use super::Importer;
 use super::lower::MaterialUse;
 use super::params::Params;
-use super::spectrum::Curve;
 use crate::matrix::narrow;
+use crate::spectrum::Curve;
 
 /// How a version makes the α of facets from its `roughness`.
 #[derive(Clone, Copy, PartialEq)]
@@ -416,7 +416,7 @@ impl Importer {
         }
         let Some(map) = params.find("normalmap", &["string"]) else { return material };
         let path = self.find_file(map.text().unwrap_or_default());
-        let key = super::lower::free_name(&self.desc.textures, "normalmap");
+        let key = crate::names::free_name(&self.desc.textures, "normalmap");
         let image = Image {
             color_space: ColorSpace::Linear,
             ..Image::new(ImageSource::File(Sourced::at(path, map.span)))

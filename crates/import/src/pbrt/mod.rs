@@ -8,7 +8,6 @@
 
 mod camera;
 mod color;
-mod curve;
 mod directives;
 mod film;
 mod lexer;
@@ -18,10 +17,8 @@ mod materials;
 mod params;
 mod parser;
 mod shapes;
-mod spectrum;
 mod state;
 mod subdivision;
-mod surfaces;
 mod textures;
 
 use std::collections::{BTreeMap, HashMap};

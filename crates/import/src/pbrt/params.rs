@@ -4,8 +4,8 @@ use std::cell::Cell;
 
 use scenefile::{Diagnostic, Span};
 
-use super::spectrum::Space;
 use crate::report::Report;
+use crate::spectrum::Space;
 
 /// What stood between the brackets.
 #[derive(Clone, Debug, PartialEq)]

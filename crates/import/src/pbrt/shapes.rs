@@ -6,10 +6,10 @@ use scenefile::desc::{Emission, Material, MaterialKind, MaterialRef, Normals, Ob
 use scenefile::{Sourced, Span};
 
 use super::Importer;
-use super::curve;
 use super::params::Params;
 use super::subdivision;
-use super::surfaces::{self, Mesh};
+use crate::curve;
+use crate::surfaces::{self, Mesh};
 
 /// Vertices that a tessellated shape has at most.
 const MOST_VERTICES: u64 = 1 << 26;

@@ -6,8 +6,8 @@ use scenefile::Span;
 
 use super::lower::MaterialUse;
 use super::params::{Param, Params};
-use super::spectrum::Space;
 use crate::matrix::Matrix;
+use crate::spectrum::Space;
 
 /// Which directives `Attribute` sets defaults for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

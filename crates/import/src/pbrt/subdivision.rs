@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 
 use scenefile::desc::Triple;
 
-use super::surfaces::Mesh;
 use crate::matrix::{add, cross, dot, sub, times, wide};
+use crate::surfaces::Mesh;
 
 /// Neighbours of a vertex in order around it; those of a border begin and end on it.
 struct Ring {

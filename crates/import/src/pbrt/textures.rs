@@ -272,7 +272,7 @@ impl Importer {
     }
 
     fn add_texture(&mut self, name: &str, texture: Texture, span: Span) -> ColorDesc {
-        let key = super::lower::free_name(&self.desc.textures, name);
+        let key = crate::names::free_name(&self.desc.textures, name);
         self.desc.textures.insert(key.clone(), Sourced::at(texture, span));
         ColorDesc::Texture(Sourced::at(key, span))
     }

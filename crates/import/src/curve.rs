@@ -2,19 +2,19 @@
 
 use std::f64::consts::PI;
 
-use super::surfaces::Mesh;
 use crate::matrix::{add, cross, dot, length, narrow, sub, times, unit};
+use crate::surfaces::Mesh;
 
 /// What control points mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Basis {
+pub(crate) enum Basis {
     Bezier,
     BSpline,
 }
 
 /// What a curve becomes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Form {
+pub(crate) enum Form {
     Tube,
     Ribbon,
 }
@@ -25,7 +25,7 @@ const STEPS: usize = 8;
 const SIDES: usize = 8;
 
 /// A mesh of the whole curve; `None` where the number of points fits neither degree nor basis.
-pub(super) fn tessellate(
+pub(crate) fn tessellate(
     points: &[[f64; 3]],
     degree: usize,
     basis: Basis,

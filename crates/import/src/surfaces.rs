@@ -14,11 +14,11 @@ const ALONG: usize = 32;
 /// Parts of each side of a patch that is not flat.
 const PATCH: usize = 12;
 /// Vertices of such a patch.
-pub(super) const PATCH_VERTICES: u64 = ((PATCH + 1) * (PATCH + 1)) as u64;
+pub(crate) const PATCH_VERTICES: u64 = ((PATCH + 1) * (PATCH + 1)) as u64;
 
 /// Triangles over shared vertices; the front is where they turn counter-clockwise.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Mesh {
+pub(crate) struct Mesh {
     pub positions: Vec<Triple>,
     /// One a vertex, or none.
     pub normals: Vec<Triple>,
@@ -40,7 +40,7 @@ impl From<TriangleMesh> for Mesh {
 
 impl Mesh {
     /// Vertices without triangles.
-    pub(super) fn new(positions: &[[f64; 3]], normals: &[[f64; 3]], uvs: &[[f64; 2]]) -> Self {
+    pub(crate) fn new(positions: &[[f64; 3]], normals: &[[f64; 3]], uvs: &[[f64; 2]]) -> Self {
         Self {
             positions: positions.iter().copied().map(narrow).collect(),
             normals: normals.iter().map(|n| narrow(unit(*n).unwrap_or_default())).collect(),
@@ -56,7 +56,7 @@ impl Mesh {
     }
 
     /// Drops triangles without area, turns faces to the side of their normals, and gives normals where they are zero.
-    pub(super) fn repair(&mut self) {
+    pub(crate) fn repair(&mut self) {
         let mut indices = std::mem::take(&mut self.indices);
         indices.retain(|t| length(self.face(*t)) as f32 > 0.0);
         self.indices = indices;
@@ -78,7 +78,7 @@ impl Mesh {
     }
 
     /// As pbrt: a face's front is the side of its vertices' normals. Whether any was turned.
-    pub(super) fn turn_to_normals(&mut self) -> bool {
+    pub(crate) fn turn_to_normals(&mut self) -> bool {
         if self.normals.is_empty() {
             return false;
         }
@@ -132,7 +132,7 @@ fn circle(u: f64, degrees: f64) -> [f64; 2] {
 }
 
 /// A part of a sphere about the origin, normals outward.
-pub(super) fn sphere(radius: f64, zmin: f64, zmax: f64, degrees: f64) -> Mesh {
+pub(crate) fn sphere(radius: f64, zmin: f64, zmax: f64, degrees: f64) -> Mesh {
     let [low, high] = [zmin, zmax].map(|z| (z / radius).clamp(-1.0, 1.0).acos());
     Mesh::grid(around(degrees), AROUND / 2, |u, v| {
         let [c, s] = circle(u, degrees);
@@ -145,7 +145,7 @@ pub(super) fn sphere(radius: f64, zmin: f64, zmax: f64, degrees: f64) -> Mesh {
 }
 
 /// A ring at a height, normal +z.
-pub(super) fn disk(radius: f64, inner: f64, height: f64, degrees: f64) -> Mesh {
+pub(crate) fn disk(radius: f64, inner: f64, height: f64, degrees: f64) -> Mesh {
     Mesh::grid(around(degrees), 1, |u, v| {
         let [c, s] = circle(u, degrees);
         let r = radius + (inner - radius) * v;
@@ -154,7 +154,7 @@ pub(super) fn disk(radius: f64, inner: f64, height: f64, degrees: f64) -> Mesh {
 }
 
 /// An open tube about z, normals outward.
-pub(super) fn cylinder(radius: f64, zmin: f64, zmax: f64, degrees: f64) -> Mesh {
+pub(crate) fn cylinder(radius: f64, zmin: f64, zmax: f64, degrees: f64) -> Mesh {
     Mesh::grid(around(degrees), 1, |u, v| {
         let [c, s] = circle(u, degrees);
         ([c * radius, s * radius, zmin + (zmax - zmin) * v], [c, s, 0.0])
@@ -162,7 +162,7 @@ pub(super) fn cylinder(radius: f64, zmin: f64, zmax: f64, degrees: f64) -> Mesh 
 }
 
 /// An open cone about z with its tip at `height`, normals outward.
-pub(super) fn cone(radius: f64, height: f64, degrees: f64) -> Mesh {
+pub(crate) fn cone(radius: f64, height: f64, degrees: f64) -> Mesh {
     Mesh::grid(around(degrees), ALONG, |u, v| {
         let [c, s] = circle(u, degrees);
         let r = radius * (1.0 - v);
@@ -171,7 +171,7 @@ pub(super) fn cone(radius: f64, height: f64, degrees: f64) -> Mesh {
 }
 
 /// An open bowl about z of `radius` at `zmax`, normals outward.
-pub(super) fn paraboloid(radius: f64, zmin: f64, zmax: f64, degrees: f64) -> Mesh {
+pub(crate) fn paraboloid(radius: f64, zmin: f64, zmax: f64, degrees: f64) -> Mesh {
     Mesh::grid(around(degrees), ALONG, |u, v| {
         let [c, s] = circle(u, degrees);
         let z = zmin + (zmax - zmin) * v;
@@ -183,7 +183,7 @@ pub(super) fn paraboloid(radius: f64, zmin: f64, zmax: f64, degrees: f64) -> Mes
 }
 
 /// Patches between four corners (0,0), (1,0), (0,1), (1,1), normals along ∂p/∂u × ∂p/∂v. Flat ones are two triangles.
-pub(super) fn bilinear(mesh: &Mesh, patches: &[[u32; 4]]) -> Mesh {
+pub(crate) fn bilinear(mesh: &Mesh, patches: &[[u32; 4]]) -> Mesh {
     let mut out = Mesh::default();
     for patch in patches {
         let p = patch.map(|v| wide(mesh.positions[v as usize]));

@@ -12,7 +12,7 @@ use color::{
 
 /// The primaries that RGB values refer to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) enum Space {
+pub(crate) enum Space {
     #[default]
     Srgb,
     Rec2020,
@@ -21,7 +21,7 @@ pub(super) enum Space {
 }
 
 impl Space {
-    pub(super) fn from_name(name: &str) -> Option<Self> {
+    pub(crate) fn from_name(name: &str) -> Option<Self> {
         match name {
             "srgb" => Some(Self::Srgb),
             "rec2020" => Some(Self::Rec2020),
@@ -33,7 +33,7 @@ impl Space {
 
     /// Linear Rec. 709 of a colour, white to white. The matrices follow from the primaries of ITU-R BT.2020, SMPTE EG
     /// 432-1 (with the white D65) and SMPTE ST 2065-1 (its white adapted by Bradford's method).
-    pub(super) fn to_rgb(self, rgb: [f64; 3]) -> [f64; 3] {
+    pub(crate) fn to_rgb(self, rgb: [f64; 3]) -> [f64; 3] {
         let m = match self {
             Self::Srgb => return rgb,
             Self::Rec2020 => [
@@ -58,7 +58,7 @@ impl Space {
 
 /// A quantity by wavelength in nm.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Curve {
+pub(crate) enum Curve {
     /// Points in order of their wavelengths; linear between, 0 outside (pbrt-v4's PiecewiseLinearSpectrum).
     Points(Vec<[f64; 2]>),
     /// n of a metal.
@@ -73,14 +73,14 @@ pub(super) enum Curve {
 
 impl Curve {
     /// From pairs of wavelength and value; `None` where the wavelengths do not rise.
-    pub(super) fn from_pairs(numbers: &[f64]) -> Option<Self> {
+    pub(crate) fn from_pairs(numbers: &[f64]) -> Option<Self> {
         let points: Vec<[f64; 2]> = numbers.chunks_exact(2).map(|c| [c[0], c[1]]).collect();
         let rises = points.windows(2).all(|p| p[0][0] < p[1][0]);
         (rises && !points.is_empty()).then_some(Self::Points(points))
     }
 
     /// A spectrum that pbrt knows by name; `None` for a file name.
-    pub(super) fn named(name: &str) -> Option<Self> {
+    pub(crate) fn named(name: &str) -> Option<Self> {
         let light = |xy: [f64; 2]| Some(Self::Light(xy));
         if let Some(metal) = name.strip_prefix("metal-") {
             let (symbol, part) = metal.rsplit_once('-')?;
@@ -117,7 +117,7 @@ impl Curve {
     }
 
     /// From the text of an .spd file: a wavelength and a value a line, `#` begins a comment.
-    pub(super) fn from_file(text: &str) -> Option<Self> {
+    pub(crate) fn from_file(text: &str) -> Option<Self> {
         let words =
             text.lines().map(|l| l.split('#').next().unwrap_or_default()).flat_map(str::split_whitespace);
         let numbers: Vec<f64> = words.map(|w| w.trim_end_matches(',').parse().ok()).collect::<Option<_>>()?;
@@ -126,7 +126,7 @@ impl Curve {
     }
 
     /// Whether the data behind the name are here.
-    pub(super) fn is_known(&self) -> bool {
+    pub(crate) fn is_known(&self) -> bool {
         match self {
             Self::MetalN(metal) | Self::MetalK(metal) => metal_spectra(metal).is_some(),
             Self::Glass(_) => self.index().is_some(),
@@ -135,7 +135,7 @@ impl Curve {
     }
 
     /// The value at a wavelength; 1 for lights, which have none here.
-    pub(super) fn at(&self, nm: f64) -> f64 {
+    pub(crate) fn at(&self, nm: f64) -> f64 {
         match self {
             Self::Points(points) => {
                 let after = points.partition_point(|p| p[0] <= nm);
@@ -159,12 +159,12 @@ impl Curve {
     }
 
     /// As the colour of a reflectance, 0..=1.
-    pub(super) fn albedo(&self) -> [f64; 3] {
+    pub(crate) fn albedo(&self) -> [f64; 3] {
         reflectance_to_rgb(|nm| self.at(nm)).map(|c| c.clamp(0.0, 1.0))
     }
 
     /// As the colour of a light, of luminance 1.
-    pub(super) fn light(&self) -> [f64; 3] {
+    pub(crate) fn light(&self) -> [f64; 3] {
         let xyz = match self {
             Self::Light([x, y]) => [x / y, 1.0, (1.0 - x - y) / y],
             _ => emission_to_xyz(|nm| self.at(nm)),
@@ -175,7 +175,7 @@ impl Curve {
     }
 
     /// As any quantity by channel: the means over the red, green and blue of the spectrum.
-    pub(super) fn channels(&self) -> [f64; 3] {
+    pub(crate) fn channels(&self) -> [f64; 3] {
         [[600.0, 700.0], [500.0, 600.0], [400.0, 500.0]].map(|[from, to]| {
             let steps = 50;
             (0..steps)
@@ -186,12 +186,12 @@ impl Curve {
     }
 
     /// The value at the sodium line, 587.6 nm.
-    pub(super) fn at_sodium(&self) -> f64 {
+    pub(crate) fn at_sodium(&self) -> f64 {
         self.at(587.6)
     }
 
     /// Whether the value changes with wavelength in the visible.
-    pub(super) fn varies(&self) -> bool {
+    pub(crate) fn varies(&self) -> bool {
         (self.at(400.0) - self.at(700.0)).abs() > 1e-6
     }
 }
@@ -202,12 +202,12 @@ fn metal_name(symbol: &str) -> &str {
 }
 
 /// Light of a black body, of luminance 1.
-pub(super) fn blackbody(kelvin: f64) -> [f64; 3] {
+pub(crate) fn blackbody(kelvin: f64) -> [f64; 3] {
     blackbody_rgb(kelvin as f32).map(f64::from)
 }
 
 /// Whether a file name looks like one of a spectrum.
-pub(super) fn is_spectrum_file(name: &str) -> bool {
+pub(crate) fn is_spectrum_file(name: &str) -> bool {
     Path::new(name)
         .extension()
         .is_some_and(|e| e.eq_ignore_ascii_case("spd") || e.eq_ignore_ascii_case("txt"))
