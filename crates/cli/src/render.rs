@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use nephroid::{
-    CheckpointFile, CheckpointInfo, Job, Output, PictureError, PictureInfo, Session, SessionError,
+    CheckpointFile, CheckpointInfo, Format, Job, Output, PictureError, PictureInfo, Session, SessionError,
     check_outputs, desc, overwritten_inputs, scene_hash,
 };
 
@@ -50,7 +50,11 @@ pub fn run(args: &RenderArgs) -> Outcome {
     let hash = match file {
         None => scene_hash(desc).map_err(Failure::runtime)?,
         Some(file) => {
-            let mut info = CheckpointInfo::new(desc).map_err(Failure::runtime)?;
+            let info = match Format::of(&args.scene.scene) {
+                Format::Native => CheckpointInfo::new(desc),
+                _ => CheckpointInfo::of_import(desc, &args.scene.scene, &args.scene.set),
+            };
+            let mut info = info.map_err(Failure::runtime)?;
             info.timings = described.timings.clone();
             info.outputs = absolute(&outputs);
             let hash = info.hash;

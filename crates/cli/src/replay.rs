@@ -63,7 +63,9 @@ fn of_checkpoint(args: &SceneArgs) -> Result<Described, Failure> {
         )));
     }
     Ok(Described {
-        desc: info.desc,
+        desc: info
+            .scene(&nephroid::load)
+            .map_err(|kind| refused(nephroid::CheckpointError::new(&args.scene, kind)))?,
         sources: Default::default(),
         warnings: Vec::new(),
         timings: Default::default(),

@@ -2,7 +2,7 @@
 
 use nephroid::{
     CheckpointError, CheckpointErrorKind, CompileError, Extent, PictureInfo, Resumed, SessionError, Sources,
-    overwritten_inputs, render_all, resume,
+    load, overwritten_inputs, render_all, resume,
 };
 
 use crate::args::ResumeArgs;
@@ -21,7 +21,8 @@ pub fn run(args: &ResumeArgs) -> Outcome {
         return Err(Failure::Usage(messages));
     }
     let extent = args.passes.unwrap_or(Extent::AsAsked);
-    let resumed = resume(&args.checkpoint, extent, args.time, args.checkpoint_every, args.run.threads);
+    let every = args.checkpoint_every;
+    let resumed = resume(&args.checkpoint, extent, args.time, every, args.run.threads, &load);
     let Resumed { mut session, info, warnings, timings } = resumed.map_err(|e| failure(&e))?;
     let outputs = if args.output.is_empty() { &info.outputs } else { &args.output };
     let outputs = checked(outputs, &mut messages);

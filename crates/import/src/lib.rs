@@ -25,7 +25,8 @@ pub use outsource::{OutsourceError, outsource};
 /// `overrides` replace values of TOML files, as [`scenefile::load`] takes them; with another format they are errors.
 /// Never panics; memory is bounded by the size of the files.
 pub fn load(path: &Path, overrides: &[String]) -> Loaded {
-    if !is_pbrt(path) {
+    let format = Format::of(path);
+    if format == Format::Native {
         return scenefile::load(path, overrides);
     }
     if overrides.is_empty() {
@@ -50,7 +51,20 @@ pub fn strict(loaded: Loaded) -> Loaded {
     Loaded { desc: loaded.desc.filter(|_| !doubtful), diagnostics, ..loaded }
 }
 
-fn is_pbrt(path: &Path) -> bool {
-    let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
-    name.ends_with(".pbrt") || name.ends_with(".pbrt.gz")
+/// Who made a scene file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// Nephroid: TOML.
+    Native,
+    /// pbrt-v4 or v3.
+    Pbrt,
+}
+
+impl Format {
+    /// By the file's extension.
+    pub fn of(path: &Path) -> Self {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
+        let is = |extension: &str| name.ends_with(extension);
+        if is(".pbrt") || is(".pbrt.gz") { Self::Pbrt } else { Self::Native }
+    }
 }

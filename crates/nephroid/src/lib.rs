@@ -41,7 +41,7 @@ pub use film::{
     CompareError, Comparison, Film, Layer, OutputError, ReadError, RgbImage, check_writable, compare,
     difference, discard_unfinished, encode_png_bytes, write_atomically,
 };
-pub use import::{OutsourceError, load, outsource, strict};
+pub use import::{Format, OutsourceError, load, outsource, strict};
 pub use integrators::{
     IntegratorKind, LayerSettings, MapReport, PathEnd, PathEvent, PathRecord, PhotonKind, PhotonMapSettings,
     Settings, Technique, VertexRecord,

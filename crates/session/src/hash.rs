@@ -4,7 +4,10 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use scenefile::desc::{Film, LightKind, Render, SceneDesc, Shape, Texture};
+use scenefile::Sourced;
+use scenefile::desc::{
+    Film, Group, ImageSource, Light, LightKind, Object, Render, SceneDesc, Shape, Texture,
+};
 
 /// What a scene is known by: equal for equal descriptions and equal files, on every machine.
 ///
@@ -29,7 +32,15 @@ impl fmt::Display for SceneHash {
 /// Where a file cannot be read; the message has its path.
 pub fn scene_hash(desc: &SceneDesc) -> Result<SceneHash, String> {
     let mut hash = Fnv::new();
-    hash.update(scenefile::to_toml(&canonical(desc)).as_bytes());
+    hash.update(scenefile::to_toml(&without_arrays(desc)).as_bytes());
+    for object in all_objects(desc) {
+        hash_arrays(&mut hash, &object.shape);
+    }
+    for image in desc.textures.values().filter_map(picture).chain(desc.lights.iter().filter_map(slide)) {
+        if let ImageSource::Embedded(image) = image {
+            hash.update(&image.bytes);
+        }
+    }
     for file in files(desc) {
         let path = desc.resolve(file);
         hash.update(&[0]);
@@ -40,34 +51,110 @@ pub fn scene_hash(desc: &SceneDesc) -> Result<SceneHash, String> {
 
 /// The description without what does not decide the radiance of a pass.
 pub(crate) fn canonical(desc: &SceneDesc) -> SceneDesc {
+    with_plain_settings(desc.clone())
+}
+
+fn with_plain_settings(desc: SceneDesc) -> SceneDesc {
     let (film, render) = (Film::default(), Render::default());
     SceneDesc {
         base: PathBuf::new(),
-        render: Render { passes: render.passes, seed: render.seed, ..desc.render.clone() },
-        film: Film { exposure: film.exposure, view: film.view, ..desc.film.clone() },
-        ..desc.clone()
+        render: Render { passes: render.passes, seed: render.seed, ..desc.render },
+        film: Film { exposure: film.exposure, view: film.view, ..desc.film },
+        ..desc
+    }
+}
+
+/// [`canonical`] without the vertices and triangles of meshes in place, which may be many.
+fn without_arrays(desc: &SceneDesc) -> SceneDesc {
+    let plain = |object: &Sourced<Object>| {
+        let shape = match &object.shape.value {
+            Shape::Triangles { normals, .. } => Shape::Triangles {
+                positions: Vec::new(),
+                indices: Vec::new(),
+                vertex_normals: Vec::new(),
+                uvs: Vec::new(),
+                uvs2: Vec::new(),
+                colors: Vec::new(),
+                normals: *normals,
+            },
+            shape => shape.clone(),
+        };
+        Object {
+            name: object.name.clone(),
+            shape: shape.into(),
+            material: object.material.clone(),
+            transform: object.transform.clone(),
+            flip_normals: object.flip_normals,
+            emission: object.emission.clone(),
+            light_group: object.light_group.clone(),
+        }
+        .into()
+    };
+    let group = |group: &Group| Group { objects: group.objects.iter().map(plain).collect() };
+    with_plain_settings(SceneDesc {
+        base: PathBuf::new(),
+        render: desc.render.clone(),
+        film: desc.film.clone(),
+        camera: desc.camera.clone(),
+        photon_map: desc.photon_map.clone(),
+        sppm: desc.sppm.clone(),
+        vcm: desc.vcm.clone(),
+        textures: desc.textures.clone(),
+        materials: desc.materials.clone(),
+        objects: desc.objects.iter().map(plain).collect(),
+        lights: desc.lights.clone(),
+        groups: desc.groups.iter().map(|(name, g)| (name.clone(), group(g).into())).collect(),
+        instances: desc.instances.clone(),
+    })
+}
+
+/// The numbers of a mesh in place, each list after its length.
+fn hash_arrays(hash: &mut Fnv, shape: &Shape) {
+    let Shape::Triangles { positions, indices, vertex_normals, uvs, uvs2, colors, .. } = shape else {
+        return;
+    };
+    hash.numbers(positions.as_flattened(), f32::to_bits);
+    hash.numbers(indices.as_flattened(), |i| i);
+    hash.numbers(vertex_normals.as_flattened(), f32::to_bits);
+    for uvs in [uvs, uvs2] {
+        hash.numbers(uvs.as_flattened(), f32::to_bits);
+    }
+    hash.numbers(colors.as_flattened(), f32::to_bits);
+}
+
+fn all_objects(desc: &SceneDesc) -> impl Iterator<Item = &Sourced<Object>> {
+    desc.objects.iter().chain(desc.groups.values().flat_map(|group| &group.objects))
+}
+
+fn picture(texture: &Sourced<Texture>) -> Option<&ImageSource> {
+    match &texture.value {
+        Texture::Image(image) => Some(&image.source),
+        _ => None,
+    }
+}
+
+fn slide(light: &Sourced<Light>) -> Option<&ImageSource> {
+    match &light.kind {
+        LightKind::Sky { source, .. }
+        | LightKind::Goniometric { source, .. }
+        | LightKind::Projector { source, .. } => Some(source),
+        _ => None,
     }
 }
 
 /// The files that a description names, each once, in order of their names.
 pub(crate) fn files(desc: &SceneDesc) -> BTreeSet<&Path> {
-    let textures = desc.textures.values().filter_map(|texture| match &texture.value {
-        Texture::Image(image) => image.source.file().map(|file| file.value.as_path()),
-        _ => None,
-    });
-    let objects = desc.objects.iter().chain(desc.groups.values().flat_map(|group| &group.objects));
-    let meshes = objects.filter_map(|object| match &object.shape.value {
+    let pictures = desc.textures.values().filter_map(picture).chain(desc.lights.iter().filter_map(slide));
+    let pictures = pictures.filter_map(ImageSource::file).map(|file| file.value.as_path());
+    let meshes = all_objects(desc).filter_map(|object| match &object.shape.value {
         Shape::Mesh { file, .. } => Some(file.value.as_path()),
         _ => None,
     });
-    let lights = desc.lights.iter().filter_map(|light| match &light.kind {
-        LightKind::Sky { source, .. }
-        | LightKind::Goniometric { source, .. }
-        | LightKind::Projector { source, .. } => source.file().map(|file| file.value.as_path()),
+    let lamps = desc.lights.iter().filter_map(|light| match &light.kind {
         LightKind::Profile { file, .. } => Some(file.value.as_path()),
         _ => None,
     });
-    textures.chain(meshes).chain(lights).collect()
+    pictures.chain(meshes).chain(lamps).collect()
 }
 
 /// The hash of what is in a file, as of a scene.
@@ -99,6 +186,11 @@ impl Fnv {
 
     fn new() -> Self {
         Self(Self::BASIS)
+    }
+
+    fn numbers<T: Copy>(&mut self, list: &[T], bits: impl Fn(T) -> u32) {
+        self.update(&(list.len() as u64).to_le_bytes());
+        list.iter().for_each(|x| self.update(&bits(*x).to_le_bytes()));
     }
 
     fn update(&mut self, bytes: &[u8]) {

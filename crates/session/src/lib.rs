@@ -26,8 +26,8 @@ mod settings;
 mod surroundings;
 
 pub use checkpoint::{
-    Checkpoint, CheckpointError, CheckpointErrorKind, CheckpointFile, CheckpointInfo, MergeError, merge,
-    write_checkpoint,
+    Checkpoint, CheckpointError, CheckpointErrorKind, CheckpointFile, CheckpointInfo, MergeError, ReadScene,
+    SceneSource, merge, write_checkpoint,
 };
 pub use compile::{CompileError, Compiled, compile};
 pub use event::{Control, Event, Warning};

@@ -4,7 +4,9 @@ use std::time::Duration;
 use film::Film;
 use scenefile::Diagnostic;
 
-use crate::checkpoint::{Checkpoint, CheckpointError, CheckpointErrorKind, CheckpointFile, CheckpointInfo};
+use crate::checkpoint::{
+    Checkpoint, CheckpointError, CheckpointErrorKind, CheckpointFile, CheckpointInfo, ReadScene,
+};
 use crate::job::has_end;
 use crate::ranges::{missing, with_more};
 use crate::{Job, Phase, Session, Timings, compile};
@@ -34,7 +36,8 @@ pub struct Resumed {
 }
 
 /// Goes on with a checkpoint file on `threads` threads (0: one for each core; their number may be another than
-/// before). The session saves itself to the same file `every` so often.
+/// before). The session saves itself to the same file `every` so often. Where the scene came from a file of another
+/// program, `read` reads that again.
 ///
 /// `time`: that much more. Without, and as many passes as were asked for, what is left of the time asked for, if any.
 ///
@@ -47,6 +50,7 @@ pub fn resume(
     time: Option<Duration>,
     every: Duration,
     threads: usize,
+    read: ReadScene<'_>,
 ) -> Result<Resumed, CheckpointError> {
     let error = |kind| CheckpointError::new(path, kind);
     let mut timings = Timings::default();
@@ -62,10 +66,11 @@ pub fn resume(
         return Err(error(CheckpointErrorKind::Files(changed)));
     }
     let time = time_left(&info, extent, time).map_err(&error)?;
-    let compiled = timings.time(Phase::Compile, || compile(&info.desc, threads));
+    let desc = timings.time(Phase::Load, || info.scene(read)).map_err(&error)?;
+    let compiled = timings.time(Phase::Compile, || compile(&desc, threads));
     let compiled = compiled.map_err(|e| error(CheckpointErrorKind::Scene(e)))?;
     let session_error = |e| error(CheckpointErrorKind::Session(e));
-    let job = Job::new(&info.desc, compiled.scene).map_err(session_error)?;
+    let job = Job::new(&desc, compiled.scene).map_err(session_error)?;
     let job = extended(Job { passes: info.passes.clone(), ..job }, &film, extent, time.is_some());
     let job = job.map_err(&error)?;
     let mut session = Session::new(job, threads).and_then(|s| s.with_film(film)).map_err(session_error)?;

@@ -80,7 +80,8 @@ fn straight_resumed_and_merged_renders_give_the_same_bytes() {
         drop(stopped);
         let steps = [(Extent::More(1), begun + 1), (Extent::Total(6), 6), (Extent::Total(8), 8)];
         for (threads, (extent, done)) in (1..).zip(steps) {
-            let mut again = resume(&at("a.neph"), extent, None, MINUTE, threads).unwrap().session;
+            let mut again =
+                resume(&at("a.neph"), extent, None, MINUTE, threads, &scenefile::load).unwrap().session;
             assert_eq!(again.run(&mut |_| Control::Continue), Ok(Outcome::Finished));
             assert_eq!((again.done(), again.is_saved()), (done, Some(true)));
         }
@@ -98,7 +99,8 @@ fn straight_resumed_and_merged_renders_give_the_same_bytes() {
         assert_eq!(all.info.passes, 0..8);
         assert!(exr(&all.film, &all.info.desc, folder.path()) == expected, "{integrator:?}");
         // And a gap is filled by going on.
-        let mut filled = resume(&at("f.neph"), Extent::AsAsked, None, MINUTE, 1).unwrap().session;
+        let mut filled =
+            resume(&at("f.neph"), Extent::AsAsked, None, MINUTE, 1, &scenefile::load).unwrap().session;
         assert_eq!((filled.done(), filled.missing()), (4, 1));
         filled.run(&mut |_| Control::Continue).unwrap();
         assert_eq!(filled.film().pass_ranges(), std::slice::from_ref(&(3..8)));
@@ -147,11 +149,66 @@ fn files_that_were_changed_are_named() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     let a = part(&desc(folder.path(), IntegratorKind::Path), 0..2, &at("a.neph"));
-    let said = || resume(&a, Extent::More(1), None, MINUTE, 1).unwrap_err().to_string();
+    let said = || resume(&a, Extent::More(1), None, MINUTE, 1, &scenefile::load).unwrap_err().to_string();
     std::fs::write(at("wood.png"), film::encode_png_bytes(1, 1, &[[0; 3]], &[]).unwrap()).unwrap();
     assert!(said().contains("wood.png") && said().contains("changed"), "{}", said());
     std::fs::remove_file(at("wood.png")).unwrap();
     assert!(said().contains("wood.png") && said().contains("cannot be read"), "{}", said());
+}
+
+/// A scene of another program goes on from its own file, however large it is, and is known again.
+#[test]
+fn imported_scenes_are_read_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let whole = desc(folder.path(), IntegratorKind::Path);
+    let mut large = whole.clone();
+    // Many megabytes of text, more than a scene file may have.
+    let n = 400_000;
+    let shape = Shape::Triangles {
+        positions: (0..n + 2).map(|i| [i as f32 / 7.0, (i % 2) as f32, -3.0]).collect(),
+        indices: (0..n).map(|i| [i, i + 1, i + 2]).collect(),
+        vertex_normals: vec![],
+        uvs: vec![],
+        uvs2: vec![],
+        colors: vec![],
+        normals: Default::default(),
+    };
+    large.objects.push(Object::new(shape, Material::diffuse(0.5)).into());
+    assert!(CheckpointInfo::new(&large).is_err());
+    let read = |changed: bool| {
+        let mut read = large.clone();
+        // What the command line set comes from the checkpoint.
+        read.render.passes = 1;
+        read.film.size = [1, 1];
+        if let (true, Shape::Triangles { positions, .. }) = (changed, &mut read.objects[1].value.shape.value)
+        {
+            positions[77][1] += 1e-3;
+        }
+        move |path: &Path, set: &[String]| {
+            assert!(path.is_absolute() && path.ends_with("a.other") && set == ["k=1".to_owned()]);
+            scenefile::Loaded {
+                desc: Some(read.clone()),
+                diagnostics: Vec::new(),
+                sources: scenefile::Sources::default(),
+            }
+        }
+    };
+    let file = CheckpointFile::create(&at("a.neph")).unwrap();
+    let info = CheckpointInfo::of_import(&large, &at("a.other"), &["k=1".into()]).unwrap();
+    assert_eq!(info.hash, scene_hash(&large).unwrap());
+    let mut first = session(&large, 0..2, 2).with_checkpoint(file, info, MINUTE);
+    assert_eq!(first.run(&mut |_| Control::Continue), Ok(Outcome::Finished));
+    drop(first);
+    let go_on = |changed| resume(&at("a.neph"), Extent::Total(4), None, MINUTE, 1, &read(changed));
+    let said = go_on(true).unwrap_err().to_string();
+    assert!(said.contains("a.other") && said.contains("changed"), "{said}");
+    let mut second = go_on(false).unwrap().session;
+    assert_eq!(second.run(&mut |_| Control::Continue), Ok(Outcome::Finished));
+    let mut straight = session(&large, 0..4, 1);
+    straight.run(&mut |_| Control::Continue).unwrap();
+    let picture = |session: &Session| exr(session.film(), &large, folder.path());
+    assert_eq!(picture(&second), picture(&straight));
 }
 
 #[test]
@@ -168,7 +225,7 @@ fn time_that_was_asked_for_is_spent_once() {
         .with_checkpoint(file, info, MINUTE);
     session.run(&mut |_| Control::Stop).unwrap();
     drop(session);
-    let mut resumed = resume(&path, Extent::AsAsked, None, MINUTE, 1).unwrap();
+    let mut resumed = resume(&path, Extent::AsAsked, None, MINUTE, 1, &scenefile::load).unwrap();
     assert_eq!(resumed.info.time, Some(Duration::from_secs(3600)));
     let mut left = Duration::ZERO;
     let observer = &mut |event: Event<'_>| {
@@ -184,13 +241,13 @@ fn time_that_was_asked_for_is_spent_once() {
     assert!(left + info.elapsed > Duration::from_secs(3590), "{left:?} {info:?}");
     assert_eq!(info.time, Some(Duration::from_secs(3600)));
     // Two more passes, and nothing is said of time any more.
-    let mut more = resume(&path, Extent::More(2), None, MINUTE, 1).unwrap().session;
+    let mut more = resume(&path, Extent::More(2), None, MINUTE, 1, &scenefile::load).unwrap().session;
     assert_eq!(more.run(&mut |_| Control::Continue), Ok(Outcome::Finished));
     drop(more);
-    let again = resume(&path, Extent::AsAsked, None, MINUTE, 1).unwrap();
+    let again = resume(&path, Extent::AsAsked, None, MINUTE, 1, &scenefile::load).unwrap();
     assert_eq!((again.session.missing(), again.session.done()), (0, 4));
     drop(again);
-    let wrong = resume(&path, Extent::Total(1), None, MINUTE, 1).unwrap_err().to_string();
+    let wrong = resume(&path, Extent::Total(1), None, MINUTE, 1, &scenefile::load).unwrap_err().to_string();
     assert!(wrong.contains("4 passes already"), "{wrong}");
 }
 

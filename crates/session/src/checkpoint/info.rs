@@ -2,7 +2,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use scenefile::SceneDesc;
+use scenefile::{Loaded, SceneDesc};
 use toml::{Table, Value};
 
 use super::CheckpointErrorKind;
@@ -12,11 +12,26 @@ use crate::{Phase, SceneHash, Timings, scene_hash};
 /// Who writes checkpoints: a pass may be another in another version.
 pub(crate) const PROGRAM: &str = concat!("nephroid ", env!("CARGO_PKG_VERSION"));
 
+/// A scene file of another program.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SceneSource {
+    /// Its absolute path.
+    pub file: PathBuf,
+    /// Values that were replaced in it.
+    pub overrides: Vec<String>,
+}
+
+/// How a scene file is read, with values replaced in it.
+pub type ReadScene<'a> = &'a dyn Fn(&Path, &[String]) -> Loaded;
+
 /// What a checkpoint says of its render, besides the film: enough to go on without the scene file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CheckpointInfo {
-    /// The scene and its settings; its base folder is absolute.
+    /// The scene and its settings; its base folder is absolute. Where there is a `source`, of a file that was read the settings
+    /// alone.
     pub desc: SceneDesc,
+    /// The file of another program that the scene is read from again; `None`: the scene is in the checkpoint.
+    pub source: Option<SceneSource>,
     /// What the scene is known by.
     pub hash: SceneHash,
     /// Each file that the scene reads, as it names it, and the hash of what is in it.
@@ -40,7 +55,20 @@ impl CheckpointInfo {
     /// Where a file cannot be read, or the description has values that no scene file may have, so that it could not be
     /// read again; the message says which.
     pub fn new(desc: &SceneDesc) -> Result<Self, String> {
-        let mut desc = desc.clone();
+        Self::of(desc.clone(), None)
+    }
+
+    /// Of a scene that was read from a file of another program, with values replaced; it may be large and hold pictures: the
+    /// checkpoint names the file and has the settings alone.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn of_import(desc: &SceneDesc, file: &Path, overrides: &[String]) -> Result<Self, String> {
+        let file = std::path::absolute(file).map_err(|e| format!("{} is not known: {e}", file.display()))?;
+        Self::of(desc.clone(), Some(SceneSource { file, overrides: overrides.to_vec() }))
+    }
+
+    fn of(mut desc: SceneDesc, source: Option<SceneSource>) -> Result<Self, String> {
         // The empty path is the working directory, for which `absolute` would be an error.
         let base = if desc.base.as_os_str().is_empty() { Path::new(".") } else { &desc.base };
         desc.base = std::path::absolute(base)
@@ -54,7 +82,8 @@ impl CheckpointInfo {
         let files = files(&desc).into_iter().map(read).collect::<Result<_, String>>()?;
         let info = Self {
             passes: 0..desc.render.passes.into(),
-            desc,
+            desc: if source.is_some() { settings_of(desc) } else { desc },
+            source,
             hash,
             files,
             time: None,
@@ -86,12 +115,45 @@ impl CheckpointInfo {
         self.files.iter().filter_map(changed).collect()
     }
 
+    /// The whole scene: the settings of the checkpoint, and where there is a `source` the world that `read` finds there.
+    ///
+    /// # Errors
+    /// Where that is no scene any more, or another than it was.
+    pub fn scene(&self, read: ReadScene<'_>) -> Result<SceneDesc, CheckpointErrorKind> {
+        let Some(source) = &self.source else { return Ok(self.desc.clone()) };
+        let changed = |why: String| CheckpointErrorKind::Files(vec![(source.file.clone(), why)]);
+        let loaded = read(&source.file, &source.overrides);
+        let Some(world) = loaded.desc else {
+            let first = loaded.diagnostics.iter().find(|d| d.is_error()).map(|d| d.message.clone());
+            return Err(changed(format!("it cannot be read any more: {}", first.unwrap_or_default())));
+        };
+        let settings = self.desc.clone();
+        let desc = SceneDesc {
+            textures: world.textures,
+            materials: world.materials,
+            objects: world.objects,
+            lights: world.lights,
+            groups: world.groups,
+            instances: world.instances,
+            ..settings
+        };
+        match scene_hash(&desc) {
+            Ok(hash) if hash == self.hash => Ok(desc),
+            Ok(_) => Err(changed("it was changed since the render began".into())),
+            Err(why) => Err(changed(why)),
+        }
+    }
+
     /// As TOML.
     pub(crate) fn to_text(&self) -> String {
         let path = |path: &Path| Value::from(path.to_string_lossy().into_owned());
         let mut table = Table::new();
         table.insert("program".into(), PROGRAM.into());
         table.insert("base".into(), path(&self.desc.base));
+        if let Some(source) = &self.source {
+            table.insert("source".into(), path(&source.file));
+            table.insert("set".into(), source.overrides.clone().into());
+        }
         table.insert("hash".into(), self.hash.to_string().into());
         table.insert("passes".into(), [self.passes.start, self.passes.end].map(|n| n as i64).to_vec().into());
         if let Some(time) = self.time {
@@ -137,6 +199,14 @@ impl CheckpointInfo {
             let spent = table.get("timings_s").and_then(|t| t.get(phase.name())).and_then(seconds);
             timings.add(phase, spent.ok_or_else(|| wrong("timings"))?);
         }
+        let source = match table.get("source").and_then(Value::as_str) {
+            Some(file) => {
+                let overrides: Option<_> =
+                    list("set")?.iter().map(|v| v.as_str().map(str::to_owned)).collect();
+                Some(SceneSource { file: file.into(), overrides: overrides.ok_or_else(|| wrong("set"))? })
+            }
+            None => None,
+        };
         let outputs = list("outputs")?.iter().map(|p| p.as_str().map(PathBuf::from));
         let file = |value: &Value| {
             let [name, hash] = value.as_array()?.as_slice() else { return None };
@@ -144,6 +214,7 @@ impl CheckpointInfo {
         };
         Ok(Self {
             desc,
+            source,
             hash: read_hash(string("hash")?).ok_or_else(|| wrong("hash"))?,
             files: list("files")?.iter().map(file).collect::<Option<_>>().ok_or_else(|| wrong("files"))?,
             passes,
@@ -152,6 +223,20 @@ impl CheckpointInfo {
             timings,
             outputs: outputs.collect::<Option<_>>().ok_or_else(|| wrong("outputs"))?,
         })
+    }
+}
+
+/// A scene without its world.
+fn settings_of(desc: SceneDesc) -> SceneDesc {
+    let none = SceneDesc::default();
+    SceneDesc {
+        textures: none.textures,
+        materials: none.materials,
+        objects: none.objects,
+        lights: none.lights,
+        groups: none.groups,
+        instances: none.instances,
+        ..desc
     }
 }
 

@@ -18,7 +18,7 @@ use film::{Film, FilmHead, SectionReader, SectionWriter};
 
 pub use error::{CheckpointError, CheckpointErrorKind};
 pub use file::CheckpointFile;
-pub use info::CheckpointInfo;
+pub use info::{CheckpointInfo, ReadScene, SceneSource};
 pub use merge::{MergeError, merge};
 pub(crate) use saver::{Attempt, Saver};
 
