@@ -9,6 +9,7 @@ mod material;
 mod medium;
 mod scene;
 mod shape;
+mod sphere_map;
 pub mod target;
 pub mod texture;
 

@@ -105,7 +105,7 @@ fn companions(section: &Section, kind: &str, key: &str) -> (&'static [&'static s
         ("objects", "quad", "corners") => (&["origin", "edge_u", "edge_v"], ""),
         ("objects", _, "radiance" | "power") => (&["material"], ""),
         ("objects", _, "color") => (&[], "power = 3\n"),
-        ("objects", _, "two_sided_emission" | "light_group") => (&[], "radiance = 3\n"),
+        ("objects", _, "emission_texture" | "two_sided_emission" | "light_group") => (&[], "radiance = 3\n"),
         ("objects", "band", "inner_radius") => (&[], "outer_radius = 9\n"),
         ("objects", "mesh" | "triangles", "crease_angle") => (&[], "normals = \"smooth\"\n"),
         ("lights", "point" | "spot", "power") => (&["intensity"], ""),
@@ -113,7 +113,7 @@ fn companions(section: &Section, kind: &str, key: &str) -> (&'static [&'static s
         ("lights", "spot", "target") => (&["direction"], ""),
         ("materials", "conductor" | "coated-conductor", "metal") => (&["n", "k"], ""),
         ("lights", "environment", "radiance") => (&["file"], ""),
-        ("lights", "environment", "scale" | "rotation" | "transform") => {
+        ("lights", "environment", "mapping" | "scale" | "rotation" | "transform") => {
             (&["radiance"], "file = \"wood.png\"\n")
         }
         ("lights", "environment", "file") => (&["radiance"], ""),

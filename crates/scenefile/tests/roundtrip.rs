@@ -339,8 +339,10 @@ impl Dice {
             material,
             transform: self.steps(),
             flip_normals: self.coin(),
-            emission: emission
-                .map(|amount| Emission { amount, texture: None, two_sided: self.coin() }.into()),
+            emission: emission.map(|amount| {
+                let texture = self.coin().then(|| "plain".to_owned().into());
+                Emission { amount, texture, two_sided: self.coin() }.into()
+            }),
             light_group,
         }
         .into()
@@ -353,10 +355,19 @@ impl Dice {
             PointAmount::Power { watts: 1.0 + self.unit(), color: self.amount().map(|x| x.min(1e3)) }
         };
         let position = self.triple();
-        let kind = match self.below(5) {
+        let kind = match self.below(6) {
+            5 => LightKind::SunSky(SunSky {
+                sun_direction: self.direction(),
+                turbidity: 1.0 + 9.0 * self.unit(),
+                ground_albedo: [self.unit(), self.unit(), 0.25],
+                sun_scale: self.unit(),
+                sun_angle: 0.1 + self.unit(),
+                sky_scale: self.unit(),
+                transform: self.steps(),
+            }),
             4 => LightKind::Sky {
                 source: "wölk \"1\".hdr".into(),
-                mapping: SkyMapping::LatLong,
+                mapping: [SkyMapping::LatLong, SkyMapping::EqualArea][self.below(2) as usize],
                 scale: self.amount(),
                 transform: self.steps(),
             },

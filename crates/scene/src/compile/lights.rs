@@ -1,8 +1,9 @@
 use color::Lanes;
-use std::path::Path;
-
 use math::{Affine3A, Mat3, PI, Transform, Vec3};
-use scenefile::desc::{Emission, EmissionAmount, LightKind, PointAmount, TransformStep, channel_power};
+use scenefile::desc::{
+    Emission, EmissionAmount, ImageSource, LightKind, PointAmount, SceneDesc, SkyMapping, TransformStep,
+    channel_power,
+};
 
 use super::shapes::{self, Solid};
 use crate::Light;
@@ -10,6 +11,7 @@ use crate::light::{
     DirectionalLight, DiskLight, EnvironmentLight, PointLight, Sides, SkyLight, SphereLight, SpotLight,
     TriangleLight,
 };
+use crate::texture::{Encoding, ImageTexture};
 
 fn lanes([r, g, b]: [f32; 3]) -> Lanes {
     Lanes::rgb(r, g, b)
@@ -84,13 +86,31 @@ pub(super) fn light(kind: &LightKind) -> Option<(Light, Option<Vec3>)> {
 }
 
 /// The light of a picture of the sky.
-pub(super) fn sky(path: &Path, scale: [f32; 3], steps: &[TransformStep]) -> Result<Light, String> {
+pub(super) fn sky(
+    desc: &SceneDesc,
+    source: &ImageSource,
+    mapping: SkyMapping,
+    scale: [f32; 3],
+    steps: &[TransformStep],
+) -> Result<Light, String> {
     let turned = shapes::transform(steps).and_then(|t| turn(&t)).ok_or("its transform is singular")?;
-    match SkyLight::from_path(path, scale, turned) {
-        Ok(Some(sky)) => Ok(Light::Sky(Box::new(sky))),
-        Ok(None) => Err("it is black, or holds values that are negative or not finite".into()),
-        Err(e) => Err(e.to_string()),
+    let image = match source {
+        ImageSource::File(file) => ImageTexture::from_path(&desc.resolve(file), Encoding::Srgb),
+        ImageSource::Embedded(image) => ImageTexture::from_bytes(&image.bytes, Encoding::Srgb),
+    };
+    let image = image.map_err(|e| e.to_string())?;
+    let [width, height] = image.size();
+    if mapping == SkyMapping::EqualArea && width != height {
+        return Err(format!("a picture of equal areas is square, this one has {width} × {height} pixels"));
     }
+    let pixel = |i| {
+        let [r, g, b] = image.pixel(i);
+        [r * scale[0], g * scale[1], b * scale[2]]
+    };
+    let pixels = (0..width * height).map(pixel).collect();
+    SkyLight::new(mapping, [width, height], pixels, turned)
+        .map(|sky| Light::Sky(Box::new(sky)))
+        .ok_or_else(|| "it is black, or holds values that are negative or not finite".into())
 }
 
 /// The part of a transform that turns (and mirrors): what it makes of the axes, made a right-angled frame of unit length.

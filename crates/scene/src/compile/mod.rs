@@ -9,9 +9,7 @@ use std::sync::Arc;
 
 use accel::{Bvh, Geometry};
 use math::{Bounds3, Transform, Vec3};
-use scenefile::desc::{
-    CameraKind, FovAxis, ImageSource, LightKind, MaterialRef, Object as ObjectDesc, SceneDesc, SkyMapping,
-};
+use scenefile::desc::{CameraKind, FovAxis, LightKind, MaterialRef, Object as ObjectDesc, SceneDesc};
 use scenefile::{Diagnostic, Sourced, Span};
 
 use crate::camera::{Fov, Lens};
@@ -283,17 +281,15 @@ impl<'d> Compiler<'d> {
 
     fn add_light(&mut self, light: &Sourced<scenefile::desc::Light>) {
         let built = match &light.kind {
-            LightKind::Sky {
-                source: ImageSource::File(file),
-                mapping: SkyMapping::LatLong,
-                scale,
-                transform,
-            } => lights::sky(&self.desc.resolve(file), *scale, transform).map(|sky| (sky, None)).map_err(
-                |reason| {
-                    let message = format!("cannot light by `{}`: {reason}", file.display());
-                    Diagnostic::error("bad-image", message).at(file.span)
-                },
-            ),
+            LightKind::Sky { source, mapping, scale, transform } => {
+                lights::sky(self.desc, source, *mapping, *scale, transform).map(|sky| (sky, None)).map_err(
+                    |reason| {
+                        let message = format!("cannot light by `{}`: {reason}", source.written());
+                        let span = source.file().and_then(|file| file.span).or(light.span);
+                        Diagnostic::error("bad-image", message).at(span)
+                    },
+                )
+            }
             kind => lights::light(kind).ok_or_else(|| {
                 let message = "this light has a direction of length zero or a value that is no number";
                 Diagnostic::error("bad-light", message).at(light.span)

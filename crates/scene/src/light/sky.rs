@@ -1,31 +1,31 @@
-use std::path::Path;
+use std::f64::consts::PI;
 
 use color::Lanes;
-use math::{Bounds3, PI, Transform, Vec3};
+use math::{Bounds3, Transform, Vec3};
+use sampling::Discrete;
+use scenefile::desc::SkyMapping;
 
 use super::directional::SceneSphere;
 use super::{LeSample, LiSample};
+use crate::sphere_map;
 use crate::target::Targets;
-use crate::texture::{Encoding, ImageTexture, TextureError};
 
-/// A picture of the sky at infinity in longitude and latitude, bilinear between the middles of its pixels.
+/// A picture of the sky at infinity, bilinear between the middles of its pixels.
 ///
 /// Directions are drawn by a piecewise constant density: of a pixel's part of the sphere in proportion to the luminance over it
-/// (Pharr, Jakob & Humphreys 2023, §12.5.2), rows first. Evenly in longitude and in the cosine of the polar angle within.
+/// (Pharr, Jakob & Humphreys 2023, §12.5.2), rows first. Within the pixel evenly over the sphere.
 ///
 /// Memory: 20 bytes a pixel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SkyLight {
+    mapping: SkyMapping,
     width: usize,
     height: usize,
     /// Radiance at the middles of pixels, linear RGB, rows from the top.
     pixels: Vec<[f32; 3]>,
-    /// Cosines of the polar angles between rows, from 1 to −1.
-    cosines: Vec<f64>,
-    /// Cumulative shares of the rows: `height + 1` numbers from 0 to 1.
-    rows: Vec<f64>,
-    /// For each row the cumulative shares of its pixels.
-    columns: Vec<f64>,
+    rows: Discrete,
+    /// For each row its pixels.
+    columns: Vec<Discrete>,
     /// ∫L dω.
     integral: Lanes,
     world_from_sky: Transform,
@@ -33,70 +33,49 @@ pub struct SkyLight {
 }
 
 impl SkyLight {
-    /// From linear RGB, row by row from the top. `None` where counts disagree, something is negative or not finite, or all is black.
+    /// From linear RGB, row by row from the top. `None` where counts disagree, a picture of equal areas is not square, something
+    /// is negative or not finite, or all is black.
     pub fn new(
-        width: usize,
-        height: usize,
+        mapping: SkyMapping,
+        [width, height]: [usize; 2],
         pixels: Vec<[f32; 3]>,
         world_from_sky: Transform,
     ) -> Option<Self> {
         let counts = width > 0 && height > 0 && width.checked_mul(height) == Some(pixels.len());
-        if !counts || !pixels.iter().flatten().all(|x| *x >= 0.0 && x.is_finite()) {
+        let shape = mapping == SkyMapping::LatLong || width == height;
+        if !(counts && shape && pixels.iter().flatten().all(|x| *x >= 0.0 && x.is_finite())) {
             return None;
         }
-        let cosines: Vec<f64> =
-            (0..=height).map(|j| (std::f64::consts::PI * j as f64 / height as f64).cos()).collect();
         let mut sky = Self {
+            mapping,
             width,
             height,
             pixels,
-            cosines,
-            rows: vec![0.0],
-            columns: Vec::with_capacity((width + 1) * height),
+            rows: Discrete::default(),
+            columns: Vec::with_capacity(height),
             integral: Lanes::ZERO,
             world_from_sky,
             scene: SceneSphere::default(),
         };
         let mut integral = [0f64; 3];
         for j in 0..height {
-            let solid_angle =
-                2.0 * std::f64::consts::PI / width as f64 * (sky.cosines[j] - sky.cosines[j + 1]);
-            let (first, shares) = (sky.columns.len(), sky.shares(j));
-            let mut sum = 0.0;
-            sky.columns.push(0.0);
-            for i in 0..width {
+            let (solid_angle, shares) = (sky.solid_angle(j), sky.shares(j));
+            let row = (0..width).map(|i| {
                 let mean = sky.mean_over(i, j, shares);
                 integral.iter_mut().zip(mean).for_each(|(s, x)| *s += x * solid_angle);
-                sum += luminance(mean) * solid_angle;
-                sky.columns.push(sum);
-            }
-            normalize(&mut sky.columns[first..], sum);
-            let below = sky.rows[j];
-            sky.rows.push(below + sum);
+                color::luminance_f64(mean) * solid_angle
+            });
+            let row = Discrete::new(row);
+            sky.columns.push(row);
         }
-        let total = sky.rows[height];
-        normalize(&mut sky.rows, total);
+        sky.rows = Discrete::new(sky.columns.iter().map(Discrete::total));
         let [r, g, b] = integral.map(|x| x as f32);
         sky.integral = Lanes::rgb(r, g, b);
+        let total = sky.rows.total();
         (total > 0.0 && total.is_finite() && sky.integral.is_finite()).then_some(sky)
     }
 
-    /// From a picture file, its values times `scale`. `Ok(None)` as in [`Self::new`].
-    pub fn from_path(
-        path: &Path,
-        scale: [f32; 3],
-        world_from_sky: Transform,
-    ) -> Result<Option<Self>, TextureError> {
-        let image = ImageTexture::from_path(path, Encoding::Srgb)?;
-        let [width, height] = image.size();
-        let pixels = (0..width * height).map(|i| {
-            let [r, g, b] = image.pixel(i);
-            [r * scale[0], g * scale[1], b * scale[2]]
-        });
-        Ok(Self::new(width, height, pixels.collect(), world_from_sky))
-    }
-
-    /// Mean over the solid angle of a pixel of what is bilinear between the middles of pixels: along a row (1, 6, 1)/8.
+    /// Mean over a pixel's part of the sphere of what is bilinear between the middles of pixels: along a row (1, 6, 1)/8.
     fn mean_over(&self, i: usize, j: usize, rows: [f64; 3]) -> [f64; 3] {
         let mut sum = [0f64; 3];
         for (dj, wj) in (-1..).zip(rows) {
@@ -110,29 +89,41 @@ impl SkyLight {
 
     /// Shares in row `j` of the row above, of itself and of the row below.
     fn shares(&self, j: usize) -> [f64; 3] {
-        let step = std::f64::consts::PI / self.height as f64;
+        if self.mapping == SkyMapping::EqualArea {
+            return [0.125, 0.75, 0.125];
+        }
+        let step = PI / self.height as f64;
         let [top, middle, bottom] = [0.0, 0.5, 1.0].map(|t| (j as f64 + t) * step);
         // ∫ (θ − middle) sin θ dθ; the other row's share grows from the middle of this one to 1/2 at its edge.
         let moment = |theta: f64| theta.sin() - (theta - middle) * theta.cos();
-        let whole = self.cosines[j] - self.cosines[j + 1];
+        let whole = self.cos(j) - self.cos(j + 1);
         let above = (moment(top) - moment(middle)) / (step * whole);
         let below = (moment(bottom) - moment(middle)) / (step * whole);
         [above, 1.0 - above - below, below].map(|share| share.max(0.0))
     }
 
-    /// Columns go round; beyond a pole lies the row at the pole.
+    /// Cosine of the polar angle between rows `j` − 1 and `j` of longitudes and latitudes.
+    fn cos(&self, j: usize) -> f64 {
+        (PI * j as f64 / self.height as f64).cos()
+    }
+
+    /// Of each pixel in row `j`.
+    fn solid_angle(&self, j: usize) -> f64 {
+        match self.mapping {
+            SkyMapping::LatLong => 2.0 * PI / self.width as f64 * (self.cos(j) - self.cos(j + 1)),
+            SkyMapping::EqualArea => 4.0 * PI / (self.width as f64 * self.height as f64),
+        }
+    }
+
     fn pixel(&self, i: i64, j: i64) -> [f32; 3] {
-        let i = i.rem_euclid(self.width as i64) as usize;
-        let j = j.clamp(0, self.height as i64 - 1) as usize;
+        let [i, j] = sphere_map::wrapped(self.mapping, [self.width, self.height], i, j);
         self.pixels[j * self.width + i]
     }
 
-    /// Coordinates in pixels of the unit vector `w`: the middle of the picture is +z, its left quarter +x.
+    /// Coordinates in pixels of the unit vector `w`.
     fn place(&self, w: Vec3) -> [f32; 2] {
-        let d = self.world_from_sky.inverse().vector(w);
-        let u = d.x.atan2(-d.z) / (2.0 * PI);
-        let v = d.y.clamp(-1.0, 1.0).acos() / PI;
-        [(if u < 0.0 { u + 1.0 } else { u }) * self.width as f32, v * self.height as f32]
+        let [u, v] = sphere_map::square(self.mapping, self.world_from_sky.inverse().vector(w));
+        [u * self.width as f32, v * self.height as f32]
     }
 
     /// Radiance that comes from the direction `w`.
@@ -154,23 +145,20 @@ impl SkyLight {
         let [x, y] = self.place(w);
         let i = (x as usize).min(self.width - 1);
         let j = (y as usize).min(self.height - 1);
-        let row = self.rows[j + 1] - self.rows[j];
-        let cells = &self.columns[j * (self.width + 1)..];
-        let cell = cells[i + 1] - cells[i];
-        let solid_angle =
-            2.0 * std::f64::consts::PI / self.width as f64 * (self.cosines[j] - self.cosines[j + 1]);
-        (row * cell / solid_angle) as f32
+        let share = f64::from(self.rows.pmf(j)) * f64::from(self.columns[j].pmf(i));
+        (share / self.solid_angle(j)) as f32
     }
 
     /// A direction toward the sky and its density.
     fn sample(&self, u: [f32; 2]) -> Option<(Vec3, f32)> {
-        let (j, t) = invert(&self.rows, f64::from(u[1]));
-        let columns = &self.columns[j * (self.width + 1)..(j + 1) * (self.width + 1)];
-        let (i, s) = invert(columns, f64::from(u[0]));
-        let cos = self.cosines[j] + (self.cosines[j + 1] - self.cosines[j]) * t;
-        let sin = (1.0 - cos * cos).max(0.0).sqrt();
-        let phi = 2.0 * std::f64::consts::PI * (i as f64 + s) / self.width as f64;
-        let d = Vec3::new((sin * phi.sin()) as f32, cos as f32, (-sin * phi.cos()) as f32);
+        let (j, _, t) = self.rows.sample(u[1]);
+        let (i, _, s) = self.columns[j].sample(u[0]);
+        let (s, t) = (f64::from(s), f64::from(t));
+        let v = match self.mapping {
+            SkyMapping::LatLong => (self.cos(j) + (self.cos(j + 1) - self.cos(j)) * t).acos() / PI,
+            SkyMapping::EqualArea => (j as f64 + t) / self.height as f64,
+        };
+        let d = sphere_map::direction(self.mapping, [(i as f64 + s) / self.width as f64, v]);
         let w = self.world_from_sky.vector(d).normalize();
         // As the direction, rounded, will be asked about.
         let pdf_w = self.pdf_w(w);
@@ -219,25 +207,4 @@ impl SkyLight {
         let (from, pdf_w) = self.sample(u_dir)?;
         self.scene.sample_le_toward(targets, -from, pdf_w, self.radiance(from), u_pick, u_pos)
     }
-}
-
-/// Rec. 709.
-fn luminance([r, g, b]: [f64; 3]) -> f64 {
-    0.2126 * r + 0.7152 * g + 0.0722 * b
-}
-
-/// Makes sums end at exactly 1.
-fn normalize(sums: &mut [f64], total: f64) {
-    if total > 0.0 {
-        sums.iter_mut().for_each(|x| *x /= total);
-    }
-}
-
-/// The interval of cumulative shares that holds `u`, never an empty one if any is not, and the place within it in [0, 1).
-fn invert(sums: &[f64], u: f64) -> (usize, f64) {
-    let above = sums.partition_point(|&x| x <= u);
-    let i = above.clamp(1, sums.len() - 1) - 1;
-    let share = sums[i + 1] - sums[i];
-    let t = if share > 0.0 { ((u - sums[i]) / share).clamp(0.0, 1.0 - 1e-9) } else { 0.5 };
-    (i, t)
 }

@@ -11,6 +11,7 @@ use nephroid_scene::light::{
 };
 use nephroid_scene::target::{Target, Targets};
 use sampling::{Domain, Sampler};
+use scenefile::desc::SkyMapping;
 use testkit::significance;
 
 /// Level of one of the file's tests, of which there are fewer than 200.
@@ -122,13 +123,19 @@ pub fn spot(inner: f32, outer: f32) -> Case {
 
 /// Six by four pixels, one of them bright and some black, turned askew.
 pub fn sky() -> SkyLight {
+    sky_of(SkyMapping::LatLong, [6, 4])
+}
+
+/// A few pixels, one of them bright and some black, turned askew.
+pub fn sky_of(mapping: SkyMapping, size: [usize; 2]) -> SkyLight {
     let pixel = |i: usize| match i {
         9 => [3.0, 2.5, 2.0],
         3 | 4 | 10 | 16 | 22 => [0.0; 3],
         _ => [0.3 + 0.1 * (i % 5) as f32, 0.5, 0.2 * (i % 3) as f32],
     };
     let turn = Affine3A::from_axis_angle(Vec3::new(0.6, 0.0, 0.8), 0.7);
-    SkyLight::new(6, 4, (0..24).map(pixel).collect(), Transform::new(turn).unwrap()).unwrap()
+    let pixels = (0..size[0] * size[1]).map(pixel).collect();
+    SkyLight::new(mapping, size, pixels, Transform::new(turn).unwrap()).unwrap()
 }
 
 /// One of each, above the targets.
@@ -143,6 +150,7 @@ pub fn cases() -> Vec<Case> {
         ),
         nothing("environment", Light::Environment(EnvironmentLight::new(lanes(0.7)).unwrap())),
         nothing("sky", Light::Sky(Box::new(sky()))),
+        nothing("square sky", Light::Sky(Box::new(sky_of(SkyMapping::EqualArea, [5, 5])))),
         sphere(Vec3::new(0.0, 1.4, 0.0), 0.4, Sides::Front),
         disk(Sides::Front),
         disk(Sides::Both),

@@ -1,6 +1,6 @@
 //! Lights without a surface.
 
-use crate::desc::{ImageSource, Light, LightKind, PointAmount, SkyMapping, TransformStep, Triple};
+use crate::desc::{ImageSource, Light, LightKind, PointAmount, SkyMapping, SunSky, TransformStep, Triple};
 use crate::diagnostic::{Diagnostic, Report};
 use crate::document::Node;
 use crate::reader::{Reader, as_table};
@@ -25,6 +25,7 @@ pub(super) fn light(report: &mut Report, what: String, node: &Node) -> Option<Li
                 .zip(irradiance)
                 .map(|(direction, irradiance)| LightKind::Directional { direction, irradiance })
         }
+        Some("sun-sky") => sun_sky(report, &r).map(LightKind::SunSky),
         Some(_) => environment(report, &r),
         None => None,
     };
@@ -36,11 +37,14 @@ pub(super) fn light(report: &mut Report, what: String, node: &Node) -> Option<Li
 /// Either `radiance`, or a `file` and what goes with it.
 fn environment(report: &mut Report, r: &Reader<'_>) -> Option<LightKind> {
     let radiance = r.optional_color(report, "radiance");
+    let mapping = mapping(report, r);
     let scale = r.color(report, "scale");
     let rotation = r.number(report, "rotation");
     let mut transform = super::object::transform(report, r);
     let Some(named) = r.given("file") else {
-        if let Some(entry) = ["scale", "rotation", "transform"].iter().find_map(|name| r.given(name)) {
+        if let Some(entry) =
+            ["mapping", "scale", "rotation", "transform"].iter().find_map(|name| r.given(name))
+        {
             let message = format!("`{}` without `file` in {}", entry.key, r.what);
             report.push(Diagnostic::error("conflict", message).at(entry.key_span));
             return None;
@@ -64,11 +68,31 @@ fn environment(report: &mut Report, r: &Reader<'_>) -> Option<LightKind> {
     if degrees != 0.0 {
         transform.insert(0, TransformStep::Rotate { axis: [0.0, 1.0, 0.0], degrees });
     }
-    Some(LightKind::Sky {
-        source: ImageSource::File(file?),
-        mapping: SkyMapping::LatLong,
-        scale: scale?,
-        transform,
+    Some(LightKind::Sky { source: ImageSource::File(file?), mapping: mapping?, scale: scale?, transform })
+}
+
+fn sun_sky(report: &mut Report, r: &Reader<'_>) -> Option<SunSky> {
+    let sun_direction = r.point(report, "sun_direction");
+    let turbidity = r.number(report, "turbidity");
+    let ground_albedo = r.color(report, "ground_albedo");
+    let sun_scale = r.number(report, "sun_scale");
+    let sun_angle = r.number(report, "sun_angle");
+    let sky_scale = r.number(report, "sky_scale");
+    Some(SunSky {
+        sun_direction: sun_direction?,
+        turbidity: turbidity?,
+        ground_albedo: ground_albedo?,
+        sun_scale: sun_scale?,
+        sun_angle: sun_angle?,
+        sky_scale: sky_scale?,
+        transform: super::object::transform(report, r),
+    })
+}
+
+pub(super) fn mapping(report: &mut Report, r: &Reader<'_>) -> Option<SkyMapping> {
+    r.word(report, "mapping").map(|word| match word {
+        "equal-area" => SkyMapping::EqualArea,
+        _ => SkyMapping::LatLong,
     })
 }
 

@@ -44,9 +44,10 @@ pub(super) fn object(report: &mut Report, what: String, node: &Node) -> Object {
 fn emission(report: &mut Report, r: &Reader<'_>) -> Option<Sourced<Emission>> {
     let radiance = r.optional_color(report, "radiance");
     let power = power(report, r, "radiance");
+    let texture = r.optional_text(report, "emission_texture");
     let two_sided = r.bool(report, "two_sided_emission");
     let given = r.given("radiance").or(r.given("power"));
-    for key in ["two_sided_emission", "light_group"] {
+    for key in ["emission_texture", "two_sided_emission", "light_group"] {
         if let (Some(entry), None) = (r.given(key), given) {
             let message = format!("`{key}` without `radiance` or `power` in {}", r.what);
             report.push(Diagnostic::error("conflict", message).at(entry.key_span));
@@ -58,7 +59,7 @@ fn emission(report: &mut Report, r: &Reader<'_>) -> Option<Sourced<Emission>> {
         (None, None) => return None,
     };
     Some(Sourced {
-        value: Emission { amount, texture: None, two_sided: two_sided? },
+        value: Emission { amount, texture: texture?, two_sided: two_sided? },
         span: given.map(|entry| entry.node.span),
     })
 }

@@ -3,7 +3,8 @@
 use super::Kind::{Color, Direction, Number, Point};
 use super::Preset::{Absent, Required};
 use super::{
-    ANY, Form, Key, Kind, NON_NEGATIVE, POSITIVE, Preset, Range, Section, Switch, Variant, closed, key,
+    ANY, Form, Key, Kind, NON_NEGATIVE, POSITIVE, Preset, Range, Section, Switch, UNIT, Variant, Word,
+    closed, key, word,
 };
 
 const POSITION: Key = key("position", Point, "scene units", Required, "Where it is.");
@@ -20,6 +21,26 @@ const COLOR: Key = key(
 );
 
 const DIRECTION: Key = key("direction", Direction, "", Required, "The way the light travels.");
+
+/// Names of `desc::SkyMapping`.
+const MAPPINGS: &[Word] = &[
+    word(
+        "lat-long",
+        "Columns are longitudes, rows latitudes from +y down; the middle is +z, its left quarter +x.",
+    ),
+    word(
+        "equal-area",
+        "A square of equal areas (Clarberg 2008) as pbrt-v4 has it: the middle is +z, right +x, bottom +y, the corners -z.",
+    ),
+];
+
+const MAPPING: Key = key(
+    "mapping",
+    Kind::Word(MAPPINGS),
+    "",
+    Preset::Word("lat-long"),
+    "With file: which directions its points stand for.",
+);
 
 /// `[[lights]]`.
 pub const LIGHTS: Section = Section {
@@ -112,8 +133,9 @@ pub const LIGHTS: Section = Section {
                         Kind::File(&["hdr", "exr", "png", "jpg", "jpeg"]),
                         "",
                         Absent("radiance counts"),
-                        "A picture in longitude and latitude, +y up; its middle lies toward +z, its left quarter toward +x.",
+                        "A picture of the whole sphere, as mapping has it.",
                     ),
+                    MAPPING,
                     key(
                         "scale",
                         Color(NON_NEGATIVE),
@@ -137,6 +159,62 @@ pub const LIGHTS: Section = Section {
                     ),
                 ]],
                 example: "[[lights]]\nkind = \"environment\"\nradiance = [0.5, 0.7, 1]\n",
+            },
+            Variant {
+                name: "sun-sky",
+                doc: "A clear sky by Hosek and Wilkie's model (2012), and the sun as a disc in it.",
+                keys: &[&[
+                    key(
+                        "sun_direction",
+                        Direction,
+                        "",
+                        Required,
+                        "Toward the sun; +y is up. Below the horizon there is no light.",
+                    ),
+                    key(
+                        "turbidity",
+                        Number(closed(1.0, 10.0)),
+                        "",
+                        Preset::Number(3.0),
+                        "Haze: 2 is an arctic sky, 3 a clear one, 6 a warm moist day, 10 a hazy one.",
+                    ),
+                    key(
+                        "ground_albedo",
+                        Color(UNIT),
+                        "",
+                        Preset::Number(0.3),
+                        "Of the ground below the horizon, which lights the sky and is seen from above.",
+                    ),
+                    key(
+                        "sun_scale",
+                        Number(NON_NEGATIVE),
+                        "",
+                        Preset::Number(1.0),
+                        "Factor on the sun; 0: none.",
+                    ),
+                    key(
+                        "sun_angle",
+                        Number(Range { max: 90.0, open_max: false, ..POSITIVE }),
+                        "degrees",
+                        Preset::Number(0.2665),
+                        "Half the angle across the sun's disc; the light that it gives stays the same.",
+                    ),
+                    key(
+                        "sky_scale",
+                        Number(NON_NEGATIVE),
+                        "",
+                        Preset::Number(1.0),
+                        "Factor on the sky; 0: none.",
+                    ),
+                    key(
+                        "transform",
+                        Kind::Transform,
+                        "",
+                        Absent("none"),
+                        "Turns both; only what turns counts.",
+                    ),
+                ]],
+                example: "[[lights]]\nkind = \"sun-sky\"\nsun_direction = [1, 1, 0.5]\nturbidity = 3\n",
             },
         ],
     }),

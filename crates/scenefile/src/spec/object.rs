@@ -331,6 +331,13 @@ pub const OBJECTS: Section = Section {
             "With power: the proportions of the channels; their mean has the given power.",
         ),
         key(
+            "emission_texture",
+            Kind::Texture,
+            "",
+            Absent("white"),
+            "A factor on the radiance over the surface; of a power it is the proportion.",
+        ),
+        key(
             "two_sided_emission",
             Kind::Bool,
             "",
