@@ -353,6 +353,13 @@ impl<'a> Reader<'a> {
         })
     }
 
+    pub(crate) fn optional_word(&self, report: &mut Report, name: &str) -> Option<Option<&'static str>> {
+        self.take_optional(report, name, |report, what, key, node| match key.kind {
+            Kind::Word(words) => convert::word(report, what, words, node),
+            _ => None,
+        })
+    }
+
     /// Words without repeats, or `None` inside for all of them.
     pub(crate) fn words(&self, report: &mut Report, name: &str) -> Option<Option<Vec<&'static str>>> {
         self.take_optional(report, name, |report, what, key, node| {
@@ -405,6 +412,20 @@ impl<'a> Reader<'a> {
             convert::list(report, what, &key.kind.text(), node, convert::indices)
         };
         self.take(report, name, read, |_| None)
+    }
+
+    /// Colours with opacity, which is 1 where it is not given.
+    pub(crate) fn vertex_colors(&self, report: &mut Report, name: &str) -> Option<Vec<[f32; 4]>> {
+        let read = |report: &mut Report, what: &str, key: &Key, node: &Node| {
+            convert::list(report, what, &key.kind.text(), node, |report, what, item| match &item.value {
+                Value::Array(items) if items.len() == 3 => {
+                    let rgb = convert::numbers::<3>(report, what, "[r, g, b]", ANY, item);
+                    rgb.map(|[r, g, b]| [r, g, b, 1.0])
+                }
+                _ => convert::numbers::<4>(report, what, "[r, g, b] or [r, g, b, opacity]", ANY, item),
+            })
+        };
+        self.take(report, name, read, |_| Some(Vec::new()))
     }
 
     /// A reader of an inline table; `None` inside where the key is absent.

@@ -90,6 +90,7 @@ fn sample(key: &Key, second: bool) -> String {
         Kind::Points(min, _) => points(min.clamp(3, 4)),
         Kind::Pairs if second => "[[1, 0], [2, 1], [3, 3]]".into(),
         Kind::Pairs => "[[1, 0], [2, 1], [2, 3]]".into(),
+        Kind::VertexColors => "[[0.5, 0.25, 0], [1, 1, 1, 0.5], [0, 0, 0]]".into(),
         Kind::Indices if second => "[[0, 2, 1]]".into(),
         Kind::Indices => "[[0, 1, 2]]".into(),
         Kind::Objects if second => "[{ shape = \"sphere\", material = \"paint\" }]".into(),
@@ -119,6 +120,9 @@ fn companions(section: &Section, kind: &str, key: &str) -> (&'static [&'static s
         ("lights", "environment", "file") => (&["radiance"], ""),
         ("materials", _, "attenuation_color") => (&[], "attenuation_distance = 2\n"),
         ("materials", _, "attenuation_distance") => (&[], "attenuation_color = 0.5\n"),
+        ("textures", "image", "wrap_v") => (&[], "wrap = \"clamp\"\n"),
+        ("textures", _, "planar_u") => (&[], "planar_v = [0, 1, 0]\n"),
+        ("textures", _, "planar_v") => (&[], "planar_u = [1, 0, 0]\n"),
         ("materials", _, "alpha_across") => (&[], "alpha = 0.75\n"),
         _ => (&[], ""),
     }

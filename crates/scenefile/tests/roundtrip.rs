@@ -271,8 +271,8 @@ impl Dice {
                     indices: vec![[0, 1, 2], [0, 2, 3]],
                     vertex_normals: if full { vec![center; 4] } else { vec![] },
                     uvs: if full { vec![] } else { vec![[self.number(), self.number()]; 4] },
-                    uvs2: vec![],
-                    colors: vec![],
+                    uvs2: if self.coin() { vec![] } else { vec![[self.number(), self.number()]; 4] },
+                    colors: if self.coin() { vec![] } else { vec![[0.5, 0.25, self.unit(), self.unit()]; 4] },
                     normals: self.normals(),
                 }
             }
@@ -384,21 +384,71 @@ impl Dice {
         Light { name: self.name(), light_group: self.name(), kind }.into()
     }
 
-    fn texture(&mut self) -> Texture {
+    fn mapping(&mut self) -> Mapping {
         let (scale, offset) = ([self.number(), self.number()], [self.number(), self.number()]);
         let scale = if self.coin() { [scale[0]; 2] } else { scale };
-        if self.coin() {
-            let color = |dice: &mut Self| [dice.unit(), dice.positive(), 0.0].into();
-            return Texture::Checker { a: color(self), b: color(self), mapping: Mapping::scaled(scale) };
+        if self.below(4) == 0 {
+            return Mapping::Planar { u: self.triple(), v: self.triple(), offset };
         }
-        Texture::Image(Image {
-            color_space: if self.coin() { ColorSpace::Srgb } else { ColorSpace::Linear },
-            wrap: [[Wrap::Repeat, Wrap::Clamp, Wrap::Mirror][self.below(3) as usize]; 2],
-            filter: [TextureFilter::Trilinear, TextureFilter::Bilinear, TextureFilter::Nearest]
-                [self.below(3) as usize],
-            mapping: Mapping::Uv { set: 0, scale, rotation: 0.0, offset },
-            ..Image::new("pic\\ture.png")
-        })
+        let rotation = if self.coin() { 0.0 } else { self.number() };
+        Mapping::Uv { set: self.below(2) as u8, scale, rotation, offset }
+    }
+
+    fn channel(&mut self) -> Channel {
+        [Channel::Rgb, Channel::Red, Channel::Green, Channel::Blue, Channel::Alpha][self.below(5) as usize]
+    }
+
+    fn wrap(&mut self) -> Wrap {
+        [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror, Wrap::Black][self.below(4) as usize]
+    }
+
+    fn noise(&mut self) -> Noise {
+        let kind = match self.below(4) {
+            0 => NoiseKind::Fbm,
+            1 => NoiseKind::Wrinkled,
+            2 => NoiseKind::Windy,
+            _ => NoiseKind::Marble { scale: self.number(), variation: self.number() },
+        };
+        let windy = kind == NoiseKind::Windy;
+        Noise {
+            kind,
+            octaves: if windy { 8 } else { 1 + self.below(32) as u32 },
+            roughness: if windy { 0.5 } else { self.unit() },
+            transform: self.steps(),
+        }
+    }
+
+    /// Made of textures that are called `parts`, or of colours.
+    fn texture(&mut self, parts: &[&str]) -> Texture {
+        let color = |dice: &mut Self| match parts {
+            [first, ..] if dice.coin() => ColorDesc::texture(*first),
+            _ => [dice.number(), dice.positive(), 0.0].into(),
+        };
+        match self.below(7) {
+            0 => Texture::Checker { a: color(self), b: color(self), mapping: self.mapping() },
+            1 => Texture::Dots { inside: color(self), outside: color(self), mapping: self.mapping() },
+            2 => Texture::Product { a: color(self), b: color(self) },
+            3 => {
+                let amount = match parts {
+                    [.., last] if self.coin() => FloatDesc::texture(*last),
+                    _ => self.number().into(),
+                };
+                Texture::Mix { a: color(self), b: color(self), amount }
+            }
+            4 => Texture::Noise(self.noise()),
+            5 => Texture::VertexColor { channel: self.channel() },
+            _ => Texture::Image(Image {
+                source: "pic\\ture.png".into(),
+                color_space: if self.coin() { ColorSpace::Srgb } else { ColorSpace::Linear },
+                wrap: [self.wrap(), self.wrap()],
+                filter: [TextureFilter::Trilinear, TextureFilter::Bilinear, TextureFilter::Nearest]
+                    [self.below(3) as usize],
+                mapping: self.mapping(),
+                channel: self.channel(),
+                invert: self.coin(),
+                factor: self.triple(),
+            }),
+        }
     }
 
     fn camera(&mut self) -> Camera {
@@ -452,9 +502,12 @@ impl Dice {
             };
         }
         desc.camera = Some(self.camera().into());
-        for name in ["te\"x\n", "plain"] {
-            desc.textures.insert(name.into(), self.texture().into());
-        }
+        let plain = self.texture(&[]);
+        desc.textures.insert("plain".into(), plain.into());
+        let other = self.texture(&["plain"]);
+        desc.textures.insert("te\"x\n".into(), other.into());
+        let made = self.texture(&["te\"x\n", "plain"]);
+        desc.textures.insert("made".into(), made.into());
         for i in 0..1 + self.below(4) {
             desc.materials.insert(format!("m {}", i + 1), self.material().into());
         }

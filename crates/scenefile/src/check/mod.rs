@@ -33,7 +33,7 @@ pub(crate) fn check_into(report: &mut Report, desc: &SceneDesc, file: Option<Fil
     let whole = file.map(|file| Span { file, start: 0, end: 0 });
     checker.camera(report, whole);
     for (name, texture) in &desc.textures {
-        checker.texture(report, name, texture);
+        checker.texture(report, name, texture, texture.span);
     }
     checker.texture_cycles(report);
     for (name, material) in &desc.materials {
@@ -195,10 +195,11 @@ impl Checker<'_> {
         }
     }
 
-    fn texture(&self, report: &mut Report, name: &str, texture: &Texture) {
+    fn texture(&self, report: &mut Report, name: &str, texture: &Texture, span: Option<Span>) {
         let what = format!("texture {}", quoted(name));
         match texture {
             Texture::Image(image) => self.image(report, &what, &image.source, TEXTURES.variant("image")),
+            Texture::Noise(noise) => steps(report, &what, &noise.transform, span),
             other => other.parts().iter().for_each(|name| self.texture_name(report, &what, name)),
         }
     }

@@ -96,8 +96,14 @@ pub(crate) fn shape_fault(shape: &Shape) -> Option<(&'static str, String)> {
             degenerate(flat(1, 2) && flat(2, 3), "the corners lie on a line")
         }
         Shape::Mesh { .. } => None,
-        Shape::Triangles { positions, indices, vertex_normals, uvs, .. } => {
-            triangles_fault(positions, indices, vertex_normals.len(), uvs.len())
+        Shape::Triangles { positions, indices, vertex_normals, uvs, uvs2, colors, .. } => {
+            let counts = [
+                (vertex_normals.len(), "vertex_normals"),
+                (uvs.len(), "uvs"),
+                (uvs2.len(), "uvs2"),
+                (colors.len(), "colors"),
+            ];
+            triangles_fault(positions, indices, &counts)
         }
         Shape::Box { min, max } => {
             let extent = |i: usize| max[i] > min[i] && (max[i] - min[i]).is_finite();
@@ -146,8 +152,7 @@ pub(crate) fn shape_fault(shape: &Shape) -> Option<(&'static str, String)> {
 fn triangles_fault(
     positions: &[Triple],
     indices: &[[u32; 3]],
-    normals: usize,
-    uvs: usize,
+    counts: &[(usize, &str)],
 ) -> Option<(&'static str, String)> {
     let vertices = positions.len();
     if indices.is_empty() {
@@ -161,7 +166,7 @@ fn triangles_fault(
             format!("triangle {} has vertex {index}, but there are {vertices}", i + 1),
         ));
     }
-    for (count, name) in [(normals, "vertex_normals"), (uvs, "uvs")] {
+    for &(count, name) in counts {
         if count != 0 && count != vertices {
             return Some(("conflict", format!("{count} `{name}` for {vertices} `positions`")));
         }

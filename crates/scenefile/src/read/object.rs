@@ -83,14 +83,15 @@ fn shape(report: &mut Report, r: &Reader<'_>) -> Option<Shape> {
         "triangles" => {
             let (positions, indices) = (r.points(report, "positions"), r.indices(report, "indices"));
             let (vertex_normals, uvs) = (r.points(report, "vertex_normals"), r.pairs(report, "uvs"));
+            let (uvs2, colors) = (r.pairs(report, "uvs2"), r.vertex_colors(report, "colors"));
             let normals = normals(report, r);
             Some(Shape::Triangles {
                 positions: positions?,
                 indices: indices?,
                 vertex_normals: vertex_normals?,
                 uvs: uvs?,
-                uvs2: Vec::new(),
-                colors: Vec::new(),
+                uvs2: uvs2?,
+                colors: colors?,
                 normals: normals?,
             })
         }
