@@ -61,7 +61,8 @@ fn ply_of(object: &Object) -> Option<Vec<u8>> {
     match &object.shape.value {
         Shape::Triangles { positions, indices, vertex_normals, uvs, normals, .. } if indices.len() > FEW => {
             // Where normals are made anew those given do not matter.
-            let given = if *normals == Normals::Given { &vertex_normals[..] } else { &[] };
+            let kept = matches!(normals, Normals::Given | Normals::Completed);
+            let given = if kept { &vertex_normals[..] } else { &[] };
             Some(ply(positions, given, uvs, indices))
         }
         _ => None,

@@ -21,8 +21,20 @@ impl TriangleMesh {
 
     /// The mesh with a normal for each vertex: the mean of the adjoining triangles' normals weighted by their angles
     /// there (Thürmer & Wüthrich 1998). Vertices at the same position get the same normal.
-    pub fn with_smooth_normals(mut self) -> Self {
+    pub fn with_smooth_normals(self) -> Self {
         let point = weld(&self.positions);
+        self.averaged(&point)
+    }
+
+    /// As [`with_smooth_normals`](Self::with_smooth_normals), but only triangles that share a vertex are averaged: where
+    /// vertices lie at the same position there may be an edge.
+    pub fn with_vertex_normals(self) -> Self {
+        let point: Vec<u32> = (0..self.positions.len() as u32).collect();
+        self.averaged(&point)
+    }
+
+    /// Normals by classes of vertices; `point`: the first of each vertex's class.
+    fn averaged(mut self, point: &[u32]) -> Self {
         let mut sums = vec![DVec3::ZERO; self.positions.len()];
         for i in 0..self.indices.len() {
             let corner_normals = self.weighted_normals(i);
@@ -219,6 +231,17 @@ mod tests {
         for (p, n) in smooth.positions.iter().zip(&smooth.normals) {
             let diagonal = (*p - Vec3::splat(0.5)).normalize();
             assert!(n.dot(diagonal) > 1.0 - 1e-6, "{p} {n}");
+        }
+    }
+
+    #[test]
+    fn vertex_normals_of_a_box_of_24_vertices_are_its_faces_own() {
+        let cube = unit_box().with_vertex_normals();
+        assert_eq!(cube.positions.len(), 24);
+        for t in &cube.indices {
+            let [a, b, c] = t.map(|v| cube.positions[v as usize]);
+            let n = (b - a).cross(c - a).normalize();
+            assert!(t.iter().all(|&v| cube.normals[v as usize].dot(n) > 1.0 - 1e-6));
         }
     }
 

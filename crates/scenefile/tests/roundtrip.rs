@@ -246,7 +246,8 @@ impl Dice {
     }
 
     fn normals(&mut self) -> Normals {
-        match self.below(4) {
+        match self.below(5) {
+            4 => Normals::Completed,
             0 => Normals::Given,
             1 => Normals::Flat,
             2 => Normals::Smooth { crease_degrees: 180.0 },

@@ -148,6 +148,8 @@ fn teapot(level: u32, parts: &[TeapotPart]) -> TriangleMesh {
 fn with_normals(mesh: TriangleMesh, normals: Normals) -> TriangleMesh {
     match normals {
         Normals::Given => mesh,
+        Normals::Completed if !mesh.normals.is_empty() => mesh,
+        Normals::Completed => mesh.with_vertex_normals(),
         Normals::Flat => TriangleMesh { normals: Vec::new(), ..mesh },
         Normals::Smooth { crease_degrees } => mesh.with_crease(crease_degrees.to_radians()),
     }

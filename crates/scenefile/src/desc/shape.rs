@@ -13,6 +13,9 @@ pub enum Normals {
     Given,
     /// The faces' own.
     Flat,
+    /// As given with the mesh; where none are, averaged over the faces that share a vertex (not those that only meet at its
+    /// place, in a vertex of their own).
+    Completed,
     /// Averaged over the faces at a vertex.
     Smooth {
         /// Edges that bend more than this stay sharp; 180 smooths all.

@@ -218,6 +218,7 @@ fn normals(report: &mut Report, r: &Reader<'_>) -> Option<Normals> {
     }
     Some(match word {
         "flat" => Normals::Flat,
+        "completed" => Normals::Completed,
         "smooth" => Normals::Smooth { crease_degrees: crease.unwrap_or(180.0) },
         _ => Normals::Given,
     })

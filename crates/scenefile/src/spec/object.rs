@@ -22,6 +22,7 @@ const SMOOTH: Key =
 const NORMALS: &[Word] = &[
     word("given", "Those of the file or vertex_normals; flat where there are none."),
     word("flat", "Every triangle is shaded as flat."),
+    word("completed", "As given; where the mesh has none, averaged over the triangles that share a vertex."),
     word("smooth", "Averaged over the triangles that meet at a vertex."),
 ];
 

@@ -432,6 +432,7 @@ fn normals_fields(f: &mut Fields, normals: Normals) {
     match normals {
         Normals::Given => {}
         Normals::Flat => f.word("normals", "flat"),
+        Normals::Completed => f.word("normals", "completed"),
         Normals::Smooth { crease_degrees } => {
             f.word("normals", "smooth");
             if crease_degrees != 180.0 {
