@@ -68,7 +68,7 @@ pub fn run(arguments: &[String]) -> Outcome {
 }
 
 /// The release build of the command line, which lies beside this program.
-fn build() -> Result<PathBuf, String> {
+pub fn build() -> Result<PathBuf, String> {
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     let status = Command::new(cargo)
         .args(["build", "--quiet", "--release", "--package", "nephroid-cli"])

@@ -5,6 +5,7 @@ mod bench;
 mod gallery;
 mod long;
 mod reference;
+mod verify;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -20,6 +21,12 @@ const CHORES: &[Chore] = &[
     ("gallery", "[NAME...]", "renders docs/gallery/", gallery::run),
     ("long", "[NAME...]", "runs the tests that take minutes", long::run),
     ("reference", "[--check]", "writes docs/reference.md", reference::run),
+    (
+        "verify",
+        "[--scenes DIR] [--out DIR] [--passes N] [NAME...]",
+        "renders scenes of other programs beside their references",
+        verify::run,
+    ),
 ];
 
 fn main() -> ExitCode {
