@@ -13,8 +13,13 @@ pub(crate) fn finish(mut mesh: TriangleMesh) -> Result<TriangleMesh, MeshError> 
     if let Some(i) = mesh.positions.iter().position(|p| !p.is_finite()) {
         return Err(not_finite("the position", i, mesh.positions[i].to_string()));
     }
-    if let Some(i) = mesh.uvs.iter().position(|t| !t.is_finite()) {
-        return Err(not_finite("the texture coordinate", i, mesh.uvs[i].to_string()));
+    for uvs in [&mesh.uvs, &mesh.uvs2] {
+        if let Some(i) = uvs.iter().position(|t| !t.is_finite()) {
+            return Err(not_finite("the texture coordinate", i, uvs[i].to_string()));
+        }
+    }
+    if let Some(i) = mesh.colors.iter().position(|c| !c.iter().all(|x| x.is_finite())) {
+        return Err(not_finite("the colour", i, format!("{:?}", mesh.colors[i])));
     }
     mesh.indices.retain(|t| t[0] != t[1] && t[1] != t[2] && t[2] != t[0]);
     if mesh.indices.is_empty() {
@@ -42,7 +47,8 @@ pub(crate) fn finish(mut mesh: TriangleMesh) -> Result<TriangleMesh, MeshError> 
         }
     }
     if missing {
-        let smooth = TriangleMesh { uvs: Vec::new(), ..mesh.clone() }.with_smooth_normals();
+        let (positions, indices) = (mesh.positions.clone(), mesh.indices.clone());
+        let smooth = TriangleMesh { positions, indices, ..Default::default() }.with_smooth_normals();
         for (n, s) in mesh.normals.iter_mut().zip(smooth.normals) {
             if *n == Vec3::ZERO {
                 *n = s;
@@ -53,6 +59,11 @@ pub(crate) fn finish(mut mesh: TriangleMesh) -> Result<TriangleMesh, MeshError> 
         mesh.uvs = Vec::new();
     }
     Ok(mesh)
+}
+
+/// Linear from a colour that is encoded as sRGB (IEC 61966-2-1).
+pub(crate) fn linear_from_srgb(x: f32) -> f32 {
+    if x <= 0.040_45 { x / 12.92 } else { ((x + 0.055) / 1.055).powf(2.4) }
 }
 
 fn not_finite(what: &str, i: usize, value: String) -> MeshError {

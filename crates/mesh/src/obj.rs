@@ -1,6 +1,7 @@
 //! Wavefront OBJ: polygons over `v`, `vt` and `vn`, with `usemtl` and `mtllib`.
 //!
-//! Groups, smoothing groups, lines, points and free-form surfaces are ignored, as are vertex colours and weights.
+//! Groups, smoothing groups, lines, points and free-form surfaces are ignored, as are weights of vertices. Three numbers
+//! behind a vertex's place are its colour, encoded as sRGB, which counts where every vertex has one.
 //! Facts of the format: Wavefront, *Advanced Visualizer Manual*, appendix B1.
 
 use std::borrow::Cow;
@@ -8,7 +9,7 @@ use std::collections::HashMap;
 
 use math::{Vec2, Vec3};
 
-use crate::assemble::finish;
+use crate::assemble::{finish, linear_from_srgb};
 use crate::polygon::triangulate;
 use crate::text::{float, integer, shown, word};
 use crate::{MeshError, Place, TriangleMesh};
@@ -84,6 +85,8 @@ struct Reader {
     positions: Vec<Vec3>,
     uvs: Vec<Vec2>,
     normals: Vec<Vec3>,
+    /// Of the positions, where they have any.
+    colors: Vec<[f32; 4]>,
     /// Indices into positions, uvs, normals for each corner of each face.
     corners: Vec<[u32; 3]>,
     /// For each face where its corners end, and its material.
@@ -96,6 +99,16 @@ struct Reader {
     libraries: Vec<String>,
 }
 
+/// What follows a vertex's place, where it is a colour.
+fn color(rest: &mut &[u8]) -> Option<[f32; 4]> {
+    let mut rgb = [0.0; 3];
+    for x in &mut rgb {
+        *x = linear_from_srgb(float(word(rest)?)?);
+    }
+    let [r, g, b] = rgb;
+    Some([r, g, b, 1.0])
+}
+
 impl Reader {
     fn error(&self, message: String, help: &str) -> MeshError {
         MeshError::new(Place::Line(self.line), message, help)
@@ -105,17 +118,18 @@ impl Reader {
         let mut rest = line;
         match word(&mut rest) {
             Some(b"v") => {
-                let [x, y, z] = self.numbers("v", rest)?;
+                let [x, y, z] = self.numbers("v", &mut rest)?;
                 self.positions.push(Vec3::new(x, y, z));
+                self.colors.extend(color(&mut rest));
             }
             Some(b"vn") => {
-                let [x, y, z] = self.numbers("vn", rest)?;
+                let [x, y, z] = self.numbers("vn", &mut rest)?;
                 self.normals.push(Vec3::new(x, y, z));
             }
             Some(b"vt") => {
-                let u = self.numbers::<1>("vt", rest)?[0];
+                let [u] = self.numbers("vt", &mut rest)?;
                 // A one-dimensional texture has no v.
-                let v = self.numbers::<2>("vt", rest).map_or(0.0, |uv| uv[1]);
+                let v = word(&mut rest).and_then(float).unwrap_or(0.0);
                 self.uvs.push(Vec2::new(u, v));
             }
             // `fo` is the older spelling.
@@ -137,10 +151,10 @@ impl Reader {
         Ok(())
     }
 
-    fn numbers<const N: usize>(&self, keyword: &str, mut rest: &[u8]) -> Result<[f32; N], MeshError> {
+    fn numbers<const N: usize>(&self, keyword: &str, rest: &mut &[u8]) -> Result<[f32; N], MeshError> {
         let mut numbers = [0.0; N];
         for n in &mut numbers {
-            let word = word(&mut rest).ok_or_else(|| {
+            let word = word(rest).ok_or_else(|| {
                 self.error(
                     format!("`{keyword}` needs {N} numbers"),
                     "the line is cut off: export the mesh again",
@@ -278,6 +292,10 @@ impl Reader {
 
     /// A vertex for each different corner, and the vertex of each corner.
     fn vertices(&mut self) -> (TriangleMesh, Vec<u32>) {
+        // All positions have a colour, or none counts.
+        if self.colors.len() != self.positions.len() {
+            self.colors.clear();
+        }
         let has_uvs = self.corners.iter().any(|c| c[1] != NONE);
         let has_normals = self.corners.iter().any(|c| c[2] != NONE);
         let same = |c: &[u32; 3]| (c[1] == c[0] || !has_uvs) && (c[2] == c[0] || !has_normals);
@@ -292,6 +310,7 @@ impl Reader {
                 mesh.normals = std::mem::take(&mut self.normals);
                 mesh.normals.resize(mesh.positions.len(), Vec3::Y);
             }
+            mesh.colors = std::mem::take(&mut self.colors);
             return (mesh, self.corners.iter().map(|c| c[0]).collect());
         }
         let mut mesh = TriangleMesh::default();
@@ -310,6 +329,7 @@ impl Reader {
                 };
                 if vertex == new {
                     mesh.positions.push(self.positions[corner[0] as usize]);
+                    mesh.colors.extend(self.colors.get(corner[0] as usize));
                     if has_uvs {
                         mesh.uvs.push(self.uvs.get(corner[1] as usize).copied().unwrap_or_default());
                     }
@@ -363,6 +383,15 @@ mod tests {
         assert_eq!(mesh.normals[0], Vec3::Z);
         assert_eq!(mesh.normals[3], Vec3::Y);
         assert_eq!(mesh.uvs[3], Vec2::new(0.5, 0.0));
+    }
+
+    #[test]
+    fn vertex_colours_count_where_all_have_one() {
+        let mesh = ok("v 0 0 0 1 0.5 0\nv 1 0 0 1 0 0\nv 0 1 0 0 0 1\nvt 0 1\nvt 1 1\nf 1/1 3/2 2/1\n");
+        assert_eq!(mesh.colors.len(), 3);
+        assert!((mesh.colors[0][1] - 0.214_041).abs() < 1e-5, "{:?}", mesh.colors);
+        assert_eq!(mesh.colors[1], [0.0, 0.0, 1.0, 1.0]);
+        assert!(ok("v 0 0 0 1 0.5 0\nv 1 0 0\nv 0 1 0 0 0 1\nf 1 2 3\n").colors.is_empty());
     }
 
     #[test]

@@ -92,9 +92,7 @@ impl TriangleMesh {
                     first[v as usize] = copy;
                     split.positions.push(self.positions[v as usize]);
                     split.normals.push(unit_or_up(sums[set as usize]));
-                    if !self.uvs.is_empty() {
-                        split.uvs.push(self.uvs[v as usize]);
-                    }
+                    split.push_attributes(&self, v as usize);
                 }
                 corners[k] = copy;
             }

@@ -11,6 +11,10 @@ pub struct TriangleMesh {
     pub normals: Vec<Vec3>,
     /// Texture coordinates, one a vertex (v points up, as in OBJ); or empty.
     pub uvs: Vec<Vec2>,
+    /// A second set of texture coordinates; or empty.
+    pub uvs2: Vec<Vec2>,
+    /// Linear RGB and opacity, one a vertex; or empty.
+    pub colors: Vec<[f32; 4]>,
     /// Three vertices for each triangle.
     pub indices: Vec<[u32; 3]>,
 }
@@ -19,11 +23,17 @@ impl TriangleMesh {
     /// Checks what every user of a mesh relies on.
     ///
     /// # Errors
-    /// Where normals or uvs are neither empty nor one a vertex, a position, normal or uv is not finite,
-    /// a normal's length is off 1 by more than 1 %, or an index is out of range.
+    /// Where normals, uvs or colours are neither empty nor one a vertex, a number is not finite, a normal's length
+    /// is off 1 by more than 1 %, or an index is out of range.
     pub fn validate(&self) -> Result<(), MeshError> {
         let vertices = self.positions.len();
-        for (name, len) in [("normals", self.normals.len()), ("uvs", self.uvs.len())] {
+        let lengths = [
+            ("normals", self.normals.len()),
+            ("uvs", self.uvs.len()),
+            ("second uvs", self.uvs2.len()),
+            ("colours", self.colors.len()),
+        ];
+        for (name, len) in lengths {
             if len != 0 && len != vertices {
                 return Err(MeshError::whole(
                     format!("{len} {name} for {vertices} vertices"),
@@ -43,8 +53,13 @@ impl TriangleMesh {
         if let Some(i) = self.normals.iter().position(|n| !n.is_finite()) {
             return Err(not_finite("the normal", i));
         }
-        if let Some(i) = self.uvs.iter().position(|t| !t.is_finite()) {
-            return Err(not_finite("the texture coordinate", i));
+        for uvs in [&self.uvs, &self.uvs2] {
+            if let Some(i) = uvs.iter().position(|t| !t.is_finite()) {
+                return Err(not_finite("the texture coordinate", i));
+            }
+        }
+        if let Some(i) = self.colors.iter().position(|c| !c.iter().all(|x| x.is_finite())) {
+            return Err(not_finite("the colour", i));
         }
         if let Some(i) = self.normals.iter().position(|n| (n.length() - 1.0).abs() > 0.01) {
             return Err(MeshError::whole(
@@ -117,24 +132,44 @@ impl TriangleMesh {
         }
     }
 
-    /// Both meshes in one. Normals (uvs) are dropped unless both have them.
+    /// Bytes of vertices and indices.
+    pub fn memory_bytes(&self) -> usize {
+        size_of_val(&self.positions[..])
+            + size_of_val(&self.normals[..])
+            + size_of_val(&self.uvs[..])
+            + size_of_val(&self.uvs2[..])
+            + size_of_val(&self.colors[..])
+            + size_of_val(&self.indices[..])
+    }
+
+    /// Appends what a vertex of another mesh has besides position and normal.
+    pub(crate) fn push_attributes(&mut self, of: &Self, vertex: usize) {
+        self.uvs.extend(of.uvs.get(vertex));
+        self.uvs2.extend(of.uvs2.get(vertex));
+        self.colors.extend(of.colors.get(vertex));
+    }
+
+    /// Both meshes in one. Normals, uvs and colours are dropped unless both have them.
     pub fn merged(mut self, other: &Self) -> Self {
         let base = self.positions.len() as u32;
         if self.positions.is_empty() {
             return other.clone();
         }
-        if self.normals.is_empty() || other.normals.is_empty() {
-            self.normals.clear();
-        } else {
-            self.normals.extend_from_slice(&other.normals);
-        }
-        if self.uvs.is_empty() || other.uvs.is_empty() {
-            self.uvs.clear();
-        } else {
-            self.uvs.extend_from_slice(&other.uvs);
-        }
+        join(&mut self.normals, &other.normals);
+        join(&mut self.uvs, &other.uvs);
+        join(&mut self.uvs2, &other.uvs2);
+        join(&mut self.colors, &other.colors);
         self.positions.extend_from_slice(&other.positions);
         self.indices.extend(other.indices.iter().map(|t| t.map(|v| v + base)));
         self
+    }
+}
+
+/// One list behind the other; none where either is empty.
+fn join<T: Copy>(one: &mut Vec<T>, other: &[T]) {
+    if one.is_empty() || other.is_empty() {
+        one.clear();
+    } else {
+        one.extend_from_slice(other);
     }
 }

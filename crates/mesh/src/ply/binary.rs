@@ -133,6 +133,16 @@ impl<const BIG: bool> Source for Binary<'_, BIG> {
         if let Some(uv) = layout.uv {
             columns::<2, BIG, _>(data, stride, uv.map(|p| offsets[p]), &mut mesh.uvs);
         }
+        if let Some(uv2) = layout.uv2 {
+            columns::<2, BIG, _>(data, stride, uv2.map(|p| offsets[p]), &mut mesh.uvs2);
+        }
+        if let Some((rgb, alpha)) = layout.color {
+            let of = |row: &[u8], p: usize| value_of::<BIG>(offsets[p].1, &row[offsets[p].0..]) as f32;
+            for (color, row) in mesh.colors.iter_mut().zip(data.chunks_exact(stride)) {
+                let [r, g, b] = rgb.map(|p| offsets[p].1.color(of(row, p)));
+                *color = [r, g, b, alpha.map_or(1.0, |p| offsets[p].1.share(of(row, p)))];
+            }
+        }
         true
     }
 

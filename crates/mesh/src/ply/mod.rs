@@ -1,8 +1,10 @@
 //! PLY: polygons in text or binary of either byte order.
 //!
 //! Elements and properties may come in any order and of any type; those that are not known are skipped. Read are
-//! `x y z`, `nx ny nz` and one of `u v`, `s t`, `texture_u texture_v`, `texture_s texture_t` of the element `vertex`,
-//! and the list `vertex_indices` or `vertex_index` of the element `face`.
+//! `x y z`, `nx ny nz`, one of `u v`, `s t`, `texture_u texture_v`, `texture_s texture_t`, a second set `u2 v2`, and colours
+//! `red green blue` with or without `alpha` of the element `vertex`, and the list `vertex_indices` or `vertex_index` of the
+//! element `face`. Colours that are floats are linear; whole numbers are shares of their type's greatest, encoded as sRGB
+//! but for alpha.
 //! Facts of the format: Turk, *The PLY Polygon File Format*, 1994.
 
 mod ascii;
@@ -11,7 +13,7 @@ mod header;
 
 use math::{Vec2, Vec3};
 
-use crate::assemble::{MAX_COUNT, finish};
+use crate::assemble::{MAX_COUNT, finish, linear_from_srgb};
 use crate::polygon::triangulate;
 use crate::{MeshError, Place, TriangleMesh};
 use header::{Element, Format, Property, Scalar};
@@ -64,6 +66,8 @@ struct VertexLayout {
     position: [usize; 3],
     normal: Option<[usize; 3]>,
     uv: Option<[usize; 2]>,
+    uv2: Option<[usize; 2]>,
+    color: Option<([usize; 3], Option<usize>)>,
 }
 
 impl VertexLayout {
@@ -73,7 +77,32 @@ impl VertexLayout {
         let uv = [["u", "v"], ["s", "t"], ["texture_u", "texture_v"], ["texture_s", "texture_t"]]
             .iter()
             .find_map(|names| Some([find(names[0])?, find(names[1])?]));
-        Some(Self { position: triple(["x", "y", "z"])?, normal: triple(["nx", "ny", "nz"]), uv })
+        let color = triple(["red", "green", "blue"]).map(|rgb| (rgb, find("alpha")));
+        let uv2 = find("u2").zip(find("v2")).map(|(u, v)| [u, v]);
+        Some(Self { position: triple(["x", "y", "z"])?, normal: triple(["nx", "ny", "nz"]), uv, uv2, color })
+    }
+}
+
+impl Scalar {
+    /// A value as a share: of the greatest of its type, or as it is where that is a float.
+    fn share(self, x: f32) -> f32 {
+        x / match self {
+            Self::I8 => 127.0,
+            Self::U8 => 255.0,
+            Self::I16 => 32_767.0,
+            Self::U16 => 65_535.0,
+            Self::I32 => i32::MAX as f32,
+            Self::U32 => u32::MAX as f32,
+            Self::F32 | Self::F64 => 1.0,
+        }
+    }
+
+    /// A value as a linear colour.
+    fn color(self, x: f32) -> f32 {
+        match self {
+            Self::F32 | Self::F64 => x,
+            _ => linear_from_srgb(self.share(x)),
+        }
     }
 }
 
@@ -135,6 +164,8 @@ impl Content {
         mesh.positions = vec![Vec3::ZERO; count];
         mesh.normals = vec![Vec3::ZERO; if layout.normal.is_some() { count } else { 0 }];
         mesh.uvs = vec![Vec2::ZERO; if layout.uv.is_some() { count } else { 0 }];
+        mesh.uvs2 = vec![Vec2::ZERO; if layout.uv2.is_some() { count } else { 0 }];
+        mesh.colors = vec![[1.0; 4]; if layout.color.is_some() { count } else { 0 }];
         if source.sweep_vertices(element, &layout, mesh) {
             return Ok(());
         }
@@ -155,6 +186,15 @@ impl Content {
             }
             if let Some(uv) = layout.uv {
                 mesh.uvs[i] = Vec2::from_array(uv.map(|p| values[p]));
+            }
+            if let Some(uv2) = layout.uv2 {
+                mesh.uvs2[i] = Vec2::from_array(uv2.map(|p| values[p]));
+            }
+            if let Some((rgb, alpha)) = layout.color {
+                let share = |p: usize| element.properties[p].kind.share(values[p]);
+                let color = |p: usize| element.properties[p].kind.color(values[p]);
+                let [r, g, b] = rgb.map(color);
+                mesh.colors[i] = [r, g, b, alpha.map_or(1.0, share)];
             }
         }
         Ok(())

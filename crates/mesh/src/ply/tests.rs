@@ -219,3 +219,49 @@ fn faults_are_named_with_their_place() {
         assert!(parse(&binary[..cut]).is_err(), "{cut}");
     }
 }
+
+#[test]
+fn second_coordinates_and_colours_in_every_type() {
+    let text = |color: &str, alpha: &str, values: [&str; 3]| {
+        let [a, b, c] = values;
+        format!(
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty {color} red\nproperty float x\nproperty float y\n\
+             property float z\nproperty float u2\nproperty float v2\nproperty {color} green\nproperty {color} blue\n\
+             property {alpha} alpha\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n\
+             {a} 0 0 0 0.5 0.25 {b} {c}\n{a} 1 0 0 1 0 {b} {c}\n{a} 0 1 0 0 1 {b} {c}\n3 0 1 2\n"
+        )
+    };
+    let close = |a: [f32; 4], b: [f32; 4]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-5);
+    // The middle of sRGB is 0.2158; alpha is never encoded, floats are as they are.
+    let bytes = parse(text("uchar", "uchar", ["255", "128", "0 51"]).as_bytes()).unwrap();
+    assert!(close(bytes.colors[1], [1.0, 0.215_861, 0.0, 0.2]), "{:?}", bytes.colors);
+    assert_eq!(bytes.uvs2[0], Vec2::new(0.5, 0.25));
+    let words = parse(text("ushort", "float", ["65535", "32896", "0 0.3"]).as_bytes()).unwrap();
+    assert!(close(words.colors[2], [1.0, 0.215_861, 0.0, 0.3]), "{:?}", words.colors);
+    let floats = parse(text("float", "float", ["7.5", "0.5", "0.125 1"]).as_bytes()).unwrap();
+    assert_eq!(floats.colors[0], [7.5, 0.5, 0.125, 1.0]);
+    // Creases split what goes along.
+    let split = bytes.with_crease(0.1);
+    assert_eq!((split.colors.len(), split.uvs2.len()), (3, 3));
+    let joined = split.clone().merged(&split);
+    assert_eq!((joined.colors.len(), joined.uvs2.len()), (6, 6));
+    assert!(joined.merged(&TriangleMesh { colors: vec![], ..split }).colors.is_empty());
+}
+
+#[test]
+fn binary_colours_are_those_of_the_text() {
+    let mut file = b"ply\nformat binary_big_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\n\
+        property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nproperty ushort alpha\n\
+        element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        .to_vec();
+    for p in [[0.0f32, 0.0], [1.0, 0.0], [0.0, 1.0]] {
+        file.extend([p[0], p[1], 0.0].iter().flat_map(|x| x.to_be_bytes()));
+        file.extend([255, 128, 0, 0x33, 0x33]);
+    }
+    file.push(3);
+    file.extend([0i32, 1, 2].iter().flat_map(|i| i.to_be_bytes()));
+    let mesh = parse(&file).unwrap();
+    for (a, b) in mesh.colors[2].iter().zip([1.0, 0.215_861, 0.0, 0.2]) {
+        assert!((a - b).abs() < 1e-5, "{:?}", mesh.colors);
+    }
+}

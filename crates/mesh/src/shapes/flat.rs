@@ -13,6 +13,7 @@ pub fn quad(origin: Vec3, edge_u: Vec3, edge_v: Vec3) -> TriangleMesh {
         normals: vec![normal; 4],
         uvs: vec![Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y],
         indices: vec![[0, 1, 2], [0, 2, 3]],
+        ..TriangleMesh::default()
     }
 }
 

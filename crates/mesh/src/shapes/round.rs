@@ -97,8 +97,8 @@ pub fn icosphere(radius: f32, level: u32) -> TriangleMesh {
     TriangleMesh {
         positions: directions.iter().map(|d| (*d * f64::from(radius)).as_vec3()).collect(),
         normals: directions.iter().map(|d| d.as_vec3()).collect::<Vec<Vec3>>(),
-        uvs: Vec::new(),
         indices: faces,
+        ..TriangleMesh::default()
     }
 }
 

@@ -75,11 +75,13 @@ fn solid(desc: &SceneDesc, shape: &ShapeDesc) -> Result<Solid, MeshError> {
         ShapeDesc::Quad { origin, edge_u, edge_v } => shapes::quad(v(*origin), v(*edge_u), v(*edge_v)),
         ShapeDesc::Corners { corners } => four_corners(corners.map(v)),
         ShapeDesc::Mesh { file, normals } => with_normals(mesh::read(desc.resolve(file))?, *normals),
-        ShapeDesc::Triangles { positions, indices, vertex_normals, uvs, normals, .. } => {
+        ShapeDesc::Triangles { positions, indices, vertex_normals, uvs, uvs2, colors, normals } => {
             let mesh = TriangleMesh {
                 positions: positions.iter().copied().map(v).collect(),
                 normals: vertex_normals.iter().map(|n| v(*n).normalize_or_zero()).collect(),
                 uvs: uvs.iter().copied().map(Vec2::from).collect(),
+                uvs2: uvs2.iter().copied().map(Vec2::from).collect(),
+                colors: colors.clone(),
                 indices: indices.clone(),
             };
             mesh.validate()?;
@@ -129,6 +131,7 @@ fn four_corners(corners: [Vec3; 4]) -> TriangleMesh {
         normals: Vec::new(),
         uvs: [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(Vec2::from).to_vec(),
         indices: vec![[0, 1, 2], [0, 2, 3]],
+        ..TriangleMesh::default()
     }
 }
 
