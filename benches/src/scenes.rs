@@ -45,7 +45,7 @@ impl Ready {
     /// Photon paths that `auto` traces each pass.
     pub(crate) fn photon_paths(&self) -> Result<u64, String> {
         let settings = nephroid::settings(&self.desc).map_err(|e| e.to_string())?;
-        Ok(integrators::Auto::new(settings, &self.scene).photon_paths())
+        Ok(integrators::Auto::new(settings, &self.scene).paths_per_pass())
     }
 
     /// Medians of `rounds` in turn, on one thread and on two.

@@ -6,7 +6,7 @@
 use bsdf::{Lobes, TransportMode};
 use film::{FilmError, PassFilm};
 use photons::{Kernel, PhotonMap};
-use sampling::{Domain, Sampler};
+use sampling::Domain;
 use scene::Scene;
 use transport::{
     CausticJob, EyeChain, LightLayer, PathClass, PathEnd, Vertex, Walk, direct_against, direct_in_chain,
@@ -15,12 +15,12 @@ use transport::{
 
 use crate::caustics::{Caustics, replay_caustic_job, trace_caustic_job};
 use crate::maps::StoredMap;
-use crate::path::{EVEN_DEPTH, add_emission, survival};
+use crate::path::{add_direct, add_emission, even, survival};
 use crate::pixels::{CameraPath, Tracer, render_pixels};
 use crate::plan::Plan;
 use crate::radius::PassRadius;
 use crate::replay::record_pixel;
-use crate::sink::{Origin, Sink, Source, Sum, Technique};
+use crate::sink::{Sink, Source, Sum, Technique};
 use crate::{Integrator, Maps, PathRecord, PhotonKind, RadiusSettings, Settings, StartRadius, TracedPhotons};
 
 /// Radii. No setting: weights hand to other techniques what a radius does not suit.
@@ -44,7 +44,7 @@ impl Auto {
     }
 
     /// Photon paths that each pass traces; 0 where there is nothing for them to find.
-    pub fn photon_paths(&self) -> u64 {
+    pub fn paths_per_pass(&self) -> u64 {
         self.plan.paths
     }
 
@@ -157,20 +157,14 @@ impl Tracer for Eye<'_> {
             }
             let is_d = vertex.bsdf.has_diffuse();
             let depth = walk.depth;
-            let even = |pair: u32, sampler: &mut Sampler| {
-                if depth < EVEN_DEPTH { strata.point(2 * depth + pair) } else { sampler.next_2d() }
-            };
-            let (u_light, u) = (sampler.next_1d(), even(0, &mut sampler));
+            let (u_light, u) = (sampler.next_1d(), even(&strata, &mut sampler, depth, 0));
             let direct = if !is_d && chain.would_compete() {
                 direct_in_chain(scene, &vertex, &chain, u_light, u)
             } else {
                 direct_against(scene, &vertex, Lobes::ALL, u_light, u)
             };
             if let Some(direct) = direct {
-                let layer = class.scattered(!is_d).layer();
-                let origin =
-                    Origin { layer, technique: Technique::Direct, source: Source::Light(direct.light) };
-                sink.add(origin, walk.throughput * direct.radiance);
+                add_direct(sink, &walk, class.scattered(!is_d), &direct);
             }
             if let (true, Some(photons)) = (is_d, &self.photons) {
                 if radius == 0.0 {
@@ -178,7 +172,7 @@ impl Tracer for Eye<'_> {
                 }
                 photons.merge(&walk, &vertex, class, radius, self.max_depth, sink);
             }
-            let (u_lobe, u) = (sampler.next_1d(), even(1, &mut sampler));
+            let (u_lobe, u) = (sampler.next_1d(), even(&strata, &mut sampler, depth, 1));
             let Some(scattered) = walk.scatter_with(&vertex, Lobes::ALL, u_lobe, u) else {
                 return sink.ended(PathEnd::Absorbed);
             };
@@ -234,7 +228,7 @@ impl Merging<'_> {
         let layer = class.scattered(false).scattered(true).layer();
         sink.add_sum(layer, Technique::Merge, sum.map(|sum| walk.throughput * sum));
         if layer == LightLayer::Caustic {
-            sink.density(within.count as f32 / (std::f32::consts::PI * radius * radius));
+            sink.density(within.density(radius));
         }
     }
 }

@@ -3,8 +3,9 @@
 
 use bsdf::Lobes;
 use film::{FilmError, PassFilm};
+use sampling::{Sampler, Strata};
 use scene::Scene;
-use transport::{Emission, PathClass, PathEnd, Walk, direct_against, emission_at, emission_escaped};
+use transport::{Direct, Emission, PathClass, PathEnd, Walk, direct_against, emission_at, emission_escaped};
 
 use crate::pixels::{CameraPath, Tracer, render_pixels};
 use crate::replay::record_pixel;
@@ -14,7 +15,7 @@ use crate::{Integrator, Maps, PathRecord, PhotonKind, Settings, TracedPhotons};
 /// Throughput below which Russian roulette begins: killing earlier adds more noise than it saves time.
 const FAINT: f32 = 1.0 / 3.0;
 /// Vertices whose numbers fill their squares evenly over the passes.
-pub(crate) const EVEN_DEPTH: u32 = 2;
+const EVEN_DEPTH: u32 = 2;
 
 /// Chance to survive an event.
 #[inline]
@@ -43,6 +44,20 @@ pub(crate) fn add_emission(sink: &mut impl Sink, walk: &Walk<'_>, class: PathCla
     sink.add(origin, walk.throughput * e.radiance * e.weight);
 }
 
+/// Light that light sampling found at a vertex of the walk, on a path of that class.
+#[inline]
+pub(crate) fn add_direct(sink: &mut impl Sink, walk: &Walk<'_>, class: PathClass, direct: &Direct) {
+    let origin =
+        Origin { layer: class.layer(), technique: Technique::Direct, source: Source::Light(direct.light) };
+    sink.add(origin, walk.throughput * direct.radiance);
+}
+
+/// Numbers that fill their square evenly over the passes at the first vertices of an eye path, `pair` 0 or 1 of those at a vertex.
+#[inline]
+pub(crate) fn even(strata: &Strata, sampler: &mut Sampler, depth: u32, pair: u32) -> [f32; 2] {
+    if depth < EVEN_DEPTH { strata.point(2 * depth + pair) } else { sampler.next_2d() }
+}
+
 impl Tracer for Path {
     #[inline]
     fn trace<S: Sink>(&self, CameraPath { mut walk, mut sampler, strata, .. }: CameraPath<'_>, sink: &mut S) {
@@ -67,18 +82,11 @@ impl Tracer for Path {
             }
             let is_s = !vertex.bsdf.has_diffuse();
             let depth = walk.depth;
-            let even = |pair: u32, sampler: &mut sampling::Sampler| {
-                if depth < EVEN_DEPTH { strata.point(2 * depth + pair) } else { sampler.next_2d() }
-            };
-            let u_light = sampler.next_1d();
-            if let Some(direct) = direct_against(scene, &vertex, Lobes::ALL, u_light, even(0, &mut sampler)) {
-                let layer = class.scattered(is_s).layer();
-                let origin =
-                    Origin { layer, technique: Technique::Direct, source: Source::Light(direct.light) };
-                sink.add(origin, walk.throughput * direct.radiance);
+            let (u_light, u) = (sampler.next_1d(), even(&strata, &mut sampler, depth, 0));
+            if let Some(direct) = direct_against(scene, &vertex, Lobes::ALL, u_light, u) {
+                add_direct(sink, &walk, class.scattered(is_s), &direct);
             }
-            let u_lobe = sampler.next_1d();
-            let u = even(1, &mut sampler);
+            let (u_lobe, u) = (sampler.next_1d(), even(&strata, &mut sampler, depth, 1));
             let Some(scattered) = walk.scatter_with(&vertex, Lobes::ALL, u_lobe, u) else {
                 return sink.ended(PathEnd::Absorbed);
             };

@@ -10,6 +10,7 @@ use crate::irradiance::irradiance_samples;
 use crate::maps::StoredMap;
 use crate::photon_pass::{Traced, replay_job, trace_job};
 use crate::pixels::render_pixels;
+use crate::radius::median;
 use crate::replay::record_pixel;
 use crate::{Integrator, Maps, PathRecord, PhotonKind, PhotonMapSettings, Settings, TracedPhotons};
 
@@ -134,7 +135,7 @@ fn store(photons: Vec<Photon>, knn: u32, reach: f32, max_radius: Option<f32>) ->
 fn typical_radius(map: &PhotonMap, knn: usize, reach: f32) -> f32 {
     let mut scratch = Scratch::new();
     let step = (map.len() / PROBES).max(1);
-    let mut radii: Vec<f32> = (0..map.len())
+    let radii = (0..map.len())
         .step_by(step)
         .map(|slot| {
             let p = map.photon(slot as u32);
@@ -143,6 +144,5 @@ fn typical_radius(map: &PhotonMap, knn: usize, reach: f32) -> f32 {
             map.gather_knn(&query, knn, &mut scratch, |_, _| ()).radius
         })
         .collect();
-    radii.sort_by(f32::total_cmp);
-    radii.get(radii.len() / 2).copied().unwrap_or(reach)
+    median(radii).unwrap_or(reach)
 }

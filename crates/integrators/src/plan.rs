@@ -11,7 +11,7 @@ use crate::auto::{Eye, Merging, RADIUS};
 use crate::caustics::trace_caustic_job;
 use crate::maps::StoredMap;
 use crate::pixels::{Tracer, start};
-use crate::radius::PassRadius;
+use crate::radius::{PassRadius, median};
 use crate::sink::{Origin, Sink, Source, Technique};
 use crate::{Maps, Settings};
 
@@ -66,7 +66,7 @@ impl Plan {
         let seen = look(settings, scene, &maps);
         let [width, height] = scene.resolution().map(f64::from);
         let share = if seen.all > 0.0 { seen.merged / seen.all } else { 0.0 };
-        Self { paths: paths(width * height, share), typical_radius: seen.median_radius() }
+        Self { paths: paths(width * height, share), typical_radius: median(seen.radii).unwrap_or(0.0) }
     }
 }
 
@@ -84,13 +84,6 @@ struct Seen {
     merged: f64,
     /// Radii at the first surfaces.
     radii: Vec<f32>,
-}
-
-impl Seen {
-    fn median_radius(mut self) -> f32 {
-        self.radii.sort_by(f32::total_cmp);
-        self.radii.get(self.radii.len() / 2).copied().unwrap_or(0.0)
-    }
 }
 
 /// Eye paths through a lattice of the picture.

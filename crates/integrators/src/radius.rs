@@ -65,6 +65,12 @@ fn area_factor(pass: u64, alpha: f64) -> f64 {
     (1..=pass).map(|i| i as f64).fold(1.0, |area, i| area * ((i + alpha) / (i + 1.0)))
 }
 
+/// Of an even number the upper one; `None` of none.
+pub(crate) fn median(mut radii: Vec<f32>) -> Option<f32> {
+    let middle = radii.len() / 2;
+    (!radii.is_empty()).then(|| *radii.select_nth_unstable_by(middle, f32::total_cmp).1)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

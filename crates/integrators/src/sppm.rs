@@ -21,12 +21,12 @@ use transport::{
 };
 
 use crate::maps::StoredMap;
-use crate::path::add_emission;
+use crate::path::{add_direct, add_emission};
 use crate::photon_pass::{replay_job, trace_job};
 use crate::pixels::{CameraPath, Tracer, render_pixels};
-use crate::radius::PassRadius;
+use crate::radius::{PassRadius, median};
 use crate::replay::record_pixel;
-use crate::sink::{Origin, Sink, Source, Sum, Technique};
+use crate::sink::{Sink, Source, Sum, Technique};
 use crate::{DirectLight, Integrator, Maps, PathRecord, PhotonKind, Settings, TracedPhotons};
 
 /// For equal bias this kernel needs a radius of √1.5 of the constant one's, and has 8/9 of its variance then: of all
@@ -171,12 +171,7 @@ impl Tracer for Eye<'_> {
                 }
                 lobes = Lobes::DELTA;
             } else if let Some(direct) = direct(walk.scene(), &vertex, &mut sampler) {
-                let origin = Origin {
-                    layer: LightLayer::Direct,
-                    technique: Technique::Direct,
-                    source: Source::Light(direct.light),
-                };
-                sink.add(origin, walk.throughput * direct.radiance);
+                add_direct(sink, &walk, PathClass::default(), &direct);
             }
             if walk.scatter_lobes(&vertex, lobes, &mut sampler).is_none() {
                 return sink.ended(PathEnd::Absorbed);
@@ -201,12 +196,7 @@ impl Eye<'_> {
     fn straight(&self, walk: &Walk<'_>, vertex: &Vertex, sampler: &mut Sampler, sink: &mut impl Sink) {
         let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
         if let Some(direct) = direct_against(walk.scene(), vertex, self.rays, u_light, u) {
-            let origin = Origin {
-                layer: LightLayer::Direct,
-                technique: Technique::Direct,
-                source: Source::Light(direct.light),
-            };
-            sink.add(origin, walk.throughput * direct.radiance);
+            add_direct(sink, walk, PathClass::default(), &direct);
         }
         let mut ray = *walk;
         if ray.scatter_lobes(vertex, self.rays, sampler).is_none() {
@@ -243,7 +233,7 @@ impl Eye<'_> {
             for (layer, sum) in layers.into_iter().zip(sums) {
                 sink.add_sum(layer, Technique::Merge, sum.map(|sum| walk.throughput * sum));
             }
-            sink.density(within.count as f32 / (std::f32::consts::PI * radius * radius));
+            sink.density(within.density(radius));
         }
     }
 }
@@ -270,7 +260,5 @@ fn typical_radius(scene: &Scene, radius: &PassRadius) -> f32 {
         let vertex = walk.next_vertex()?;
         vertex.bsdf.has_diffuse().then(|| radius.at(vertex.footprint))
     };
-    let mut radii: Vec<f32> = (0..PROBES * PROBES).filter_map(radius_at).collect();
-    radii.sort_by(f32::total_cmp);
-    radii.get(radii.len() / 2).copied().unwrap_or(0.0)
+    median((0..PROBES * PROBES).filter_map(radius_at).collect()).unwrap_or(0.0)
 }

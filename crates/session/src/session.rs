@@ -64,14 +64,26 @@ impl Session {
         let workers = Workers::new(threads).map_err(SessionError::Threads)?;
         let integrator = workers.run(|| integrators::integrator(&job.settings, &job.scene));
         let layers = integrators::layer_names(&job.settings, &job.scene);
-        Self::with_integrator(job.scene, integrator, job.passes, threads)?.with_layers(layers)
+        Self::on_workers(job.scene, integrator, job.passes, workers, layers)
     }
 
+    #[cfg(test)]
     pub(crate) fn with_integrator(
         scene: Arc<Scene>,
         integrator: Box<dyn Integrator>,
         passes: Range<u64>,
         threads: usize,
+    ) -> Result<Self, SessionError> {
+        let workers = Workers::new(threads).map_err(SessionError::Threads)?;
+        Self::on_workers(scene, integrator, passes, workers, Vec::new())
+    }
+
+    fn on_workers(
+        scene: Arc<Scene>,
+        integrator: Box<dyn Integrator>,
+        passes: Range<u64>,
+        workers: Workers,
+        layers: Vec<String>,
     ) -> Result<Self, SessionError> {
         if passes.is_empty() {
             return Err(SessionError::NoPasses);
@@ -79,11 +91,11 @@ impl Session {
         if passes.end - passes.start > Film::MAX_PASSES {
             return Err(FilmError::TooManyPasses.into());
         }
-        check_memory(film_bytes(scene.resolution()))?;
-        let workers = Workers::new(threads).map_err(SessionError::Threads)?;
-        let [width, height] = scene.resolution().map(|n| n as usize);
+        let resolution = scene.resolution();
+        check_memory(film_bytes(resolution) + layer_bytes(resolution, layers.len()))?;
+        let [width, height] = resolution.map(|n| n as usize);
         Ok(Self {
-            film: Film::new(width, height),
+            film: Film::with_layers(width, height, layers)?,
             integrator,
             scene,
             workers,
@@ -95,16 +107,6 @@ impl Session {
             saved: None,
             snapshots: None,
         })
-    }
-
-    /// With a film that has named layers.
-    fn with_layers(self, names: Vec<String>) -> Result<Self, SessionError> {
-        if names.is_empty() {
-            return Ok(self);
-        }
-        let [width, height] = self.scene.resolution();
-        check_memory(film_bytes([width, height]) + layer_bytes([width, height], names.len()))?;
-        Ok(Self { film: Film::with_layers(width as usize, height as usize, names)?, ..self })
     }
 
     /// Starts from a film that holds some passes, of the same job or one that differs in its passes alone.

@@ -30,19 +30,17 @@ pub struct Merged {
 impl Merged {
     /// Photons per unit of area.
     pub fn density(&self) -> f32 {
-        if self.count == 0 {
-            0.0
-        } else {
-            self.count as f32 / (std::f32::consts::PI * self.radius * self.radius)
-        }
+        if self.count == 0 { 0.0 } else { per_disc(self.count, self.radius) }
     }
+}
+
+fn per_disc(count: usize, radius: f32) -> f32 {
+    count as f32 / (std::f32::consts::PI * radius * radius)
 }
 
 /// The query at a vertex: on the side that is seen.
 fn query(vertex: &Vertex, radius: f32, kernel: Kernel) -> Query {
-    let ng = vertex.hit.ng;
-    let normal = if vertex.wo.dot(ng) < 0.0 { -ng } else { ng };
-    Query { position: vertex.hit.p, normal, radius, kernel }
+    Query { position: vertex.hit.p, normal: vertex.facing_ng(), radius, kernel }
 }
 
 /// The query for what a surface lets pass: on the other side. `None` where photons there are not seen.
@@ -130,6 +128,14 @@ pub struct Within {
     pub count: usize,
     /// One of them, each with the same chance, by its place in the map; 0 where there is none.
     pub witness: u32,
+}
+
+impl Within {
+    /// Photons per unit of area, where `radius` was looked at.
+    #[inline]
+    pub fn density(&self, radius: f32) -> f32 {
+        per_disc(self.count, radius)
+    }
 }
 
 /// The same estimate with a given radius: calls `f` with each photon and the radiance that it adds toward

@@ -22,7 +22,7 @@ pub fn is_hidden(scene: &Scene, map: &PhotonMap, vertex: &Vertex, within: &Withi
     }
     let (position, normal) = map.place(within.witness);
     let hit = &vertex.hit;
-    let own = if vertex.wo.dot(hit.ng) < 0.0 { -hit.ng } else { hit.ng };
+    let own = vertex.facing_ng();
     let length = (position - hit.p).length();
     // Where light passes through, photons of the other side count, too: the segment stays on this one.
     let normal = if normal.dot(own) < 0.0 { -normal } else { normal };

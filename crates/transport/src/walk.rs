@@ -64,6 +64,12 @@ pub struct Sides {
 }
 
 impl Vertex {
+    /// The geometric normal on the side that the walk came from.
+    #[inline]
+    pub fn facing_ng(&self) -> Vec3 {
+        if self.wo.dot(self.hit.ng) < 0.0 { -self.hit.ng } else { self.hit.ng }
+    }
+
     /// What is left, after `distance`, of light that leaves or arrives along `w` without meeting a surface.
     #[inline]
     pub fn transmittance(&self, scene: &Scene, w: Vec3, distance: f32) -> Lanes {

@@ -13,6 +13,7 @@ use transport::{
 use super::splat::Splat;
 use super::{Merging, Plan};
 use crate::maps::StoredMap;
+use crate::radius::median;
 use crate::replay::{PhotonRecording, layer_name};
 use crate::{Maps, NonFinitePhoton, PathEvent, PathRecord, PhotonKind, TracedPhotons, VcmTechniques};
 
@@ -73,7 +74,7 @@ pub(super) fn trace(scene: &Scene, plan: &Plan, seed: u64, map_index: u64) -> Tr
         out.light_trace.radii.extend_from_slice(&batch.trace.radii);
         out.nonfinite.extend(batch.nonfinite);
     }
-    out.typical_radius = median(std::mem::take(&mut out.light_trace.radii));
+    out.typical_radius = median(std::mem::take(&mut out.light_trace.radii)).unwrap_or(0.0);
     out
 }
 
@@ -135,11 +136,10 @@ impl Batch {
         }
         if plan.merging != Merging::Never && vertex.at.is_merged() {
             let LightVertex { at, flux, depth, class, light, .. } = *vertex;
-            let (wi, ng) = (at.vertex.wo, at.vertex.hit.ng);
             self.photons.push(Photon {
                 position: at.vertex.hit.p,
-                direction: wi,
-                normal: if wi.dot(ng) < 0.0 { -ng } else { ng },
+                direction: at.vertex.wo,
+                normal: at.vertex.facing_ng(),
                 power: flux * (1.0 / (plan.count as f32 * at.presence(scene))),
                 depth: depth.min(255) as u8,
                 flags: PhotonFlags::NONE,
@@ -165,11 +165,6 @@ impl Batch {
         self.trace.splats.push(Splat { film_position, radiance, layer, light: vertex.light });
         self.trace.radii.push(radius);
     }
-}
-
-fn median(mut radii: Vec<f32>) -> f32 {
-    let middle = radii.len() / 2;
-    if radii.is_empty() { 0.0 } else { *radii.select_nth_unstable_by(middle, f32::total_cmp).1 }
 }
 
 pub(super) fn build(traced: TracedPhotons) -> Maps {
