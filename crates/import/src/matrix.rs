@@ -24,6 +24,16 @@ impl Matrix {
         m
     }
 
+    /// The turn of a quaternion x, y, z, w of any length but zero.
+    pub(crate) fn quaternion([x, y, z, w]: [f64; 4]) -> Option<Self> {
+        let axis = [x, y, z];
+        let sine = length(axis);
+        if sine == 0.0 {
+            return (w != 0.0).then_some(Self::IDENTITY);
+        }
+        Self::rotate((2.0 * sine.atan2(w)).to_degrees(), axis)
+    }
+
     /// Counter-clockwise about an axis, seen from its tip (Rodrigues 1840). `None`: the axis has no length.
     pub(crate) fn rotate(degrees: f64, axis: [f64; 3]) -> Option<Self> {
         let [x, y, z] = unit(axis)?;
@@ -69,6 +79,13 @@ impl Matrix {
     pub(crate) fn vector(&self, v: [f64; 3]) -> [f64; 3] {
         let row = |r: &[f64; 4]| r[0] * v[0] + r[1] * v[1] + r[2] * v[2];
         [row(&self.0[0]), row(&self.0[1]), row(&self.0[2])]
+    }
+
+    /// What a normal becomes, of any length: the cofactors, which are the inverse transposed times the determinant.
+    pub(crate) fn normal(&self, n: [f64; 3]) -> [f64; 3] {
+        let [a, b, c] = self.linear();
+        let side = self.determinant().signum();
+        [cross(b, c), cross(c, a), cross(a, b)].map(|row| side * dot(row, n))
     }
 
     /// Determinant of the linear part.
@@ -176,6 +193,15 @@ mod tests {
         let m = Matrix::columns(&[1., 0., 0., 0., 0., 1., 0., 0., 0., 0., -1., 0., 7., 8., 9., 1.]);
         close(m.point([1.0, 1.0, 1.0]), [8.0, 9.0, 8.0]);
         assert_eq!(m.determinant(), -1.0);
+    }
+
+    #[test]
+    fn normals_stay_upright() {
+        let m = Matrix::rotate(20.0, [1.0, 1.0, 0.0]).unwrap().after(&Matrix::scale([2.0, -0.5, 3.0]));
+        let (a, b) = ([1.0, 0.5, -0.2], [-0.3, 0.2, 1.0]);
+        let n = m.normal(cross(a, b));
+        assert!(dot(n, m.vector(a)).abs() < 1e-12 && dot(n, m.vector(b)).abs() < 1e-12);
+        assert!(dot(n, m.vector(cross(a, b))) > 0.0);
     }
 
     #[test]
