@@ -52,6 +52,7 @@ fn paint(text: &str, colour: bool) -> String {
         let code = match line {
             _ if line.starts_with("error") => "1;31",
             _ if line.starts_with("warning") => "1;33",
+            _ if line.starts_with("note") => "1;36",
             _ if line.trim_start().starts_with("--> ") => "34",
             _ if line.trim_start().starts_with("= help") => "36",
             _ => "",

@@ -1,17 +1,20 @@
 //! Scenes of other programs as [`SceneDesc`](scenefile::SceneDesc)s.
 //!
-//! [`load`] reads what Nephroid knows, by the file's extension: its own TOML, and pbrt-v4 (v3 where its names differ).
+//! [`load`] reads what Nephroid knows, by the file's extension: its own TOML, pbrt-v4 (v3 where its names differ), and
+//! glTF 2.0.
 //! What a format has and Nephroid does not is said once, with its place and what is done instead, as a warning.
 //! [`outsource`] moves large meshes of a description into PLY files, so that it can be written as TOML.
 
 mod curve;
 mod file;
+mod gltf;
 mod matrix;
 mod names;
 mod outsource;
 mod pbrt;
 mod report;
 mod spectrum;
+mod stage;
 mod surfaces;
 
 use std::path::Path;
@@ -20,17 +23,17 @@ use scenefile::{Diagnostic, Loaded, Severity, Sources, Span};
 
 pub use outsource::{OutsourceError, outsource};
 
-/// Reads a scene in any known format: `.pbrt` and `.pbrt.gz` as pbrt, everything else as TOML.
+/// Reads a scene in any known format: `.pbrt` and `.pbrt.gz` as pbrt, `.gltf` and `.glb` as glTF, everything else as TOML.
 ///
 /// `overrides` replace values of TOML files, as [`scenefile::load`] takes them; with another format they are errors.
 /// Never panics; memory is bounded by the size of the files.
 pub fn load(path: &Path, overrides: &[String]) -> Loaded {
     let format = Format::of(path);
-    if format == Format::Native {
-        return scenefile::load(path, overrides);
-    }
-    if overrides.is_empty() {
-        return pbrt::load(path);
+    match format {
+        Format::Native => return scenefile::load(path, overrides),
+        _ if !overrides.is_empty() => {}
+        Format::Pbrt => return pbrt::load(path),
+        Format::Gltf => return gltf::load(path),
     }
     let mut sources = Sources::default();
     let span = |file| Span { file, start: 0, end: 0 };
@@ -45,9 +48,12 @@ pub fn load(path: &Path, overrides: &[String]) -> Loaded {
 
 /// Turns every warning into an error, after which there is no description if there was any.
 pub fn strict(loaded: Loaded) -> Loaded {
-    let doubtful = !loaded.diagnostics.is_empty();
-    let diagnostics =
-        loaded.diagnostics.into_iter().map(|d| Diagnostic { severity: Severity::Error, ..d }).collect();
+    let doubtful = loaded.diagnostics.iter().any(|d| d.severity != Severity::Note);
+    let harder = |d: Diagnostic| match d.severity {
+        Severity::Note => d,
+        Severity::Warning | Severity::Error => Diagnostic { severity: Severity::Error, ..d },
+    };
+    let diagnostics = loaded.diagnostics.into_iter().map(harder).collect();
     Loaded { desc: loaded.desc.filter(|_| !doubtful), diagnostics, ..loaded }
 }
 
@@ -58,6 +64,8 @@ pub enum Format {
     Native,
     /// pbrt-v4 or v3.
     Pbrt,
+    /// glTF 2.0, text or binary.
+    Gltf,
 }
 
 impl Format {
@@ -65,6 +73,10 @@ impl Format {
     pub fn of(path: &Path) -> Self {
         let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();
         let is = |extension: &str| name.ends_with(extension);
-        if is(".pbrt") || is(".pbrt.gz") { Self::Pbrt } else { Self::Native }
+        match () {
+            () if is(".pbrt") || is(".pbrt.gz") => Self::Pbrt,
+            () if is(".gltf") || is(".glb") => Self::Gltf,
+            () => Self::Native,
+        }
     }
 }

@@ -37,6 +37,11 @@ impl Report {
         self.push(Diagnostic::warning("unsupported", format!("{}: {what}", message.into())).at(span));
     }
 
+    /// What was done where nothing is wrong.
+    pub(crate) fn note(&mut self, code: &'static str, message: impl Into<String>, span: Span) {
+        self.push(Diagnostic::note(code, message).at(span));
+    }
+
     pub(crate) fn has_error(&self) -> bool {
         self.left_out[1] > 0 || self.kept.iter().any(|(d, _)| d.is_error())
     }

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use scenefile::desc::{
-    Camera, EmbeddedImage, FovAxis, ImageSource, Light, LightKind, SceneDesc, Shape, SkyMapping, TransformStep,
-    TransformSteps, Triple,
+    Camera, EmbeddedImage, FovAxis, ImageSource, Light, LightKind, SceneDesc, Shape, SkyMapping,
+    TransformStep, TransformSteps, Triple,
 };
 
 use crate::matrix::{Matrix, add, cross, dot, narrow, times, unit, wide};
@@ -250,7 +250,9 @@ mod tests {
     fn white_looks_white_under_the_sky() {
         // Irradiance over π on planes that face up and to the front.
         let n = 200;
-        for (normal, range) in [([0.0, 1.0, 0.0], 0.8..1.3), ([0.0, 0.0, 1.0], 0.6..1.3), ([0.0, -1.0, 0.0], 0.2..0.5)] {
+        for (normal, range) in
+            [([0.0, 1.0, 0.0], 0.8..1.3), ([0.0, 0.0, 1.0], 0.6..1.3), ([0.0, -1.0, 0.0], 0.2..0.5)]
+        {
             let mut sum = 0.0;
             for i in 0..n {
                 let y = (i as f64 + 0.5) / n as f64 * 2.0 - 1.0;

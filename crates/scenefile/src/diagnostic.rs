@@ -5,6 +5,8 @@ use crate::source::Span;
 /// How bad it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
+    /// Nothing is wrong: what was done where the file leaves a choice.
+    Note,
     /// The scene can be rendered, but perhaps not as meant.
     Warning,
     /// The scene cannot be rendered.
@@ -12,9 +14,10 @@ pub enum Severity {
 }
 
 impl Severity {
-    /// "warning" or "error".
+    /// "note", "warning" or "error".
     pub fn name(self) -> &'static str {
         match self {
+            Self::Note => "note",
             Self::Warning => "warning",
             Self::Error => "error",
         }
@@ -35,7 +38,7 @@ pub struct Label {
 pub struct Diagnostic {
     /// A short stable name of the kind of mistake; this crate's are in [`CODES`].
     pub code: &'static str,
-    /// Error or warning.
+    /// How bad it is.
     pub severity: Severity,
     /// One sentence without a full stop.
     pub message: String,
@@ -54,6 +57,11 @@ impl Diagnostic {
     /// A warning without a place.
     pub fn warning(code: &'static str, message: impl Into<String>) -> Self {
         Self { severity: Severity::Warning, ..Self::error(code, message) }
+    }
+
+    /// What was done where nothing is wrong, without a place.
+    pub fn note(code: &'static str, message: impl Into<String>) -> Self {
+        Self { severity: Severity::Note, ..Self::error(code, message) }
     }
 
     /// Points at a place, if there is one.

@@ -122,7 +122,9 @@ impl Source<'_> {
                 fault(format!("{count} items of {size} bytes every {stride} from byte {offset} are beyond the {} of the bufferView", bytes.len()))
             })?);
         } else if count > FEW_ZEROS.max(self.buffers.size()) {
-            return Err(fault(format!("an accessor of {count} zeros is larger than the file makes plausible")));
+            return Err(fault(format!(
+                "an accessor of {count} zeros is larger than the file makes plausible"
+            )));
         }
         let sparse = value.get("sparse").map(|sparse| self.sparse(sparse, count, size)).transpose()?;
         Ok(Accessor { count, width, component, normalized, stride, data, sparse })
@@ -173,7 +175,8 @@ fn component(of: &Value<'_>, key: &str) -> Known<Component> {
 
 /// Whether so many items, the last without what follows it, are in so many bytes.
 fn fits(bytes: usize, count: usize, stride: usize, size: usize) -> bool {
-    count == 0 || (count - 1).checked_mul(stride).and_then(|n| n.checked_add(size)).is_some_and(|n| n <= bytes)
+    count == 0
+        || (count - 1).checked_mul(stride).and_then(|n| n.checked_add(size)).is_some_and(|n| n <= bytes)
 }
 
 impl Accessor<'_> {
@@ -192,7 +195,11 @@ impl Accessor<'_> {
         let mut out: Vec<[f32; N]> = match self.data {
             None => vec![[0.0; N]; self.count],
             Some(data) if self.component == Component::F32 => rows(data, self.stride, self.count, 4 * N)
-                .map(|b| std::array::from_fn(|i| f32::from_le_bytes([b[4 * i], b[4 * i + 1], b[4 * i + 2], b[4 * i + 3]])))
+                .map(|b| {
+                    std::array::from_fn(|i| {
+                        f32::from_le_bytes([b[4 * i], b[4 * i + 1], b[4 * i + 2], b[4 * i + 3]])
+                    })
+                })
                 .collect(),
             Some(data) => {
                 rows(data, self.stride, self.count, N * self.component.size()).map(|b| self.read(b)).collect()
@@ -246,7 +253,9 @@ impl Accessor<'_> {
                 let word = |b: &[u8]| u32::from_le_bytes([b[0], b[1], b[2], b[3]]);
                 data.chunks_exact(12).map(|b| [word(b), word(&b[4..]), word(&b[8..])]).collect()
             }
-            kind => data.chunks_exact(3 * size).map(|b| [0, 1, 2].map(|i| kind.whole(&b[i * size..]))).collect(),
+            kind => {
+                data.chunks_exact(3 * size).map(|b| [0, 1, 2].map(|i| kind.whole(&b[i * size..]))).collect()
+            }
         })
     }
 }

@@ -25,13 +25,21 @@ pub(super) fn open(bytes: Vec<u8>) -> Result<Container, String> {
     if !bytes.starts_with(b"glTF") {
         let text = match String::from_utf8(bytes) {
             Ok(text) => text,
-            Err(e) => return Err(format!("is neither JSON nor binary glTF: byte {} is no UTF-8", e.utf8_error().valid_up_to())),
+            Err(e) => {
+                return Err(format!(
+                    "is neither JSON nor binary glTF: byte {} is no UTF-8",
+                    e.utf8_error().valid_up_to()
+                ));
+            }
         };
         let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
         return Ok(Container { text, bytes: Vec::new(), binary: None });
     }
     let word = |at: usize| {
-        bytes.get(at..at + 4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).ok_or("is cut off in its header")
+        bytes
+            .get(at..at + 4)
+            .map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]))
+            .ok_or("is cut off in its header")
     };
     let version = word(4)?;
     if version != 2 {
@@ -155,8 +163,11 @@ pub(super) struct Buffers {
 impl Buffers {
     /// Reads every buffer of a file, each outer file once.
     pub(super) fn read(root: &Value<'_>, container: &mut Container, base: &Path) -> Known<Self> {
-        let mut this =
-            Self { stores: vec![std::mem::take(&mut container.bytes)], buffers: Vec::new(), binary: container.binary.take() };
+        let mut this = Self {
+            stores: vec![std::mem::take(&mut container.bytes)],
+            buffers: Vec::new(),
+            binary: container.binary.take(),
+        };
         let mut known: HashMap<PathBuf, usize> = HashMap::new();
         for (i, buffer) in root.array("buffers")?.iter().enumerate() {
             let read = this.buffer(i, buffer, base, &mut known);
@@ -205,7 +216,11 @@ impl Buffers {
                             Some(&store) => store,
                             None => {
                                 let bytes = read_file(&base.join(&path)).map_err(|why| {
-                                    Fault::new("missing-file", format!("the buffer `{}` {why}", path.display()), at)
+                                    Fault::new(
+                                        "missing-file",
+                                        format!("the buffer `{}` {why}", path.display()),
+                                        at,
+                                    )
                                 })?;
                                 self.stores.push(bytes);
                                 known.insert(path, self.stores.len() - 1);
@@ -245,7 +260,8 @@ impl Buffers {
         let stride = view.whole("byteStride")?.map(|s| s as usize);
         let range = start.checked_add(length).map(|end| start..end).and_then(|range| bytes.get(range));
         let range = range.ok_or_else(|| {
-            let text = format!("bytes {start}..{start}+{length} are beyond the {} of buffer {index}", bytes.len());
+            let text =
+                format!("bytes {start}..{start}+{length} are beyond the {} of buffer {index}", bytes.len());
             Fault::new("out-of-range", text, view.span())
         })?;
         Ok((range, stride))
@@ -277,7 +293,14 @@ mod tests {
 
     #[test]
     fn base64_of_rfc_4648() {
-        let pairs = [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foob", "Zm9vYg=="), ("fooba", "Zm9vYmE=")];
+        let pairs = [
+            ("", ""),
+            ("f", "Zg=="),
+            ("fo", "Zm8="),
+            ("foo", "Zm9v"),
+            ("foob", "Zm9vYg=="),
+            ("fooba", "Zm9vYmE="),
+        ];
         for (plain, coded) in pairs {
             assert_eq!(base64(coded.as_bytes()).unwrap(), plain.as_bytes());
             assert_eq!(base64(coded.trim_end_matches('=').as_bytes()).unwrap(), plain.as_bytes());
@@ -291,7 +314,19 @@ mod tests {
     fn files_beside_the_scene_alone() {
         assert_eq!(local_path("a%20b/c.bin", NOWHERE).unwrap(), Path::new("a b/c.bin"));
         assert_eq!(local_path("./100%.bin", NOWHERE).unwrap(), Path::new("./100%.bin"));
-        for uri in ["../x", "a/../../x", "/etc/passwd", "http://x/y", "file:///x", "%2e%2e/x", "..\\x", "", "C:\\x", "a\0", "%2Fetc"] {
+        for uri in [
+            "../x",
+            "a/../../x",
+            "/etc/passwd",
+            "http://x/y",
+            "file:///x",
+            "%2e%2e/x",
+            "..\\x",
+            "",
+            "C:\\x",
+            "a\0",
+            "%2Fetc",
+        ] {
             assert!(local_path(uri, NOWHERE).is_err(), "{uri}");
         }
     }

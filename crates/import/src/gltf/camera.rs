@@ -22,7 +22,8 @@ impl<'t> Importer<'t> {
             return Ok(());
         }
         let wrong = |text: &str| Fault::new("out-of-range", text, camera.span());
-        let axis = |v: [f64; 3]| unit(world.vector(v)).ok_or_else(|| wrong("the camera's node has no extent"));
+        let axis =
+            |v: [f64; 3]| unit(world.vector(v)).ok_or_else(|| wrong("the camera's node has no extent"));
         let (forward, up) = (axis([0.0, 0.0, -1.0])?, axis([0.0, 1.0, 0.0])?);
         let position = world.point([0.0; 3]);
         let mut made = Camera {

@@ -26,7 +26,11 @@ impl<'t> Importer<'t> {
         if let Some(dispersion) = value.extension("KHR_materials_dispersion")
             && dispersion.number("dispersion", 0.0)? > 0.0
         {
-            self.report.instead("dispersion is not rendered", "all colours have the same index", dispersion.span());
+            self.report.instead(
+                "dispersion is not rendered",
+                "all colours have the same index",
+                dispersion.span(),
+            );
         }
         if let Some(specular) = value.extension("KHR_materials_specular") {
             let factor = specular.number("specularFactor", 1.0)?;
@@ -38,7 +42,8 @@ impl<'t> Importer<'t> {
             let factor = coat.number("clearcoatFactor", 0.0)?;
             made.clearcoat = self.float(factor, coat.get("clearcoatTexture"), Channel::Red);
             let roughness = coat.number("clearcoatRoughnessFactor", 0.0)?;
-            made.clearcoat_roughness = self.float(roughness, coat.get("clearcoatRoughnessTexture"), Channel::Green);
+            made.clearcoat_roughness =
+                self.float(roughness, coat.get("clearcoatRoughnessTexture"), Channel::Green);
             if let Some(normal) = coat.get("clearcoatNormalTexture").filter(|_| factor > 0.0) {
                 let text = "normals of a clear coat are not rendered";
                 self.report.instead(text, "the coat has those of the base", normal.span());
@@ -76,7 +81,8 @@ impl<'t> Importer<'t> {
         }
         if let Some(diffuse) = value.extension("KHR_materials_diffuse_transmission") {
             let factor = diffuse.number("diffuseTransmissionFactor", 0.0)?;
-            made.diffuse_transmission = self.float(factor, diffuse.get("diffuseTransmissionTexture"), Channel::Alpha);
+            made.diffuse_transmission =
+                self.float(factor, diffuse.get("diffuseTransmissionTexture"), Channel::Alpha);
             let color = diffuse.numbers("diffuseTransmissionColorFactor", [1.0; 3])?;
             let texture = diffuse.get("diffuseTransmissionColorTexture");
             if factor > 0.0 && self.color(color, texture) != made.base_color {
@@ -99,7 +105,12 @@ impl<'t> Importer<'t> {
             None => FloatDesc::Value(most as f32),
             Some(_) => {
                 let share = self.float(1.0, texture, Channel::Green);
-                self.float_mix(FloatDesc::Value(least as f32), FloatDesc::Value(most as f32), share, film.span())
+                self.float_mix(
+                    FloatDesc::Value(least as f32),
+                    FloatDesc::Value(most as f32),
+                    share,
+                    film.span(),
+                )
             }
         };
         Ok(())
@@ -117,7 +128,11 @@ impl<'t> Importer<'t> {
         let texture = grain.get("anisotropyTexture");
         if let Some(texture) = texture {
             let text = "the directions of an anisotropy texture are not rendered";
-            self.report.instead(text, "the grain follows the texture coordinates and `anisotropyRotation`", texture.span());
+            self.report.instead(
+                text,
+                "the grain follows the texture coordinates and `anisotropyRotation`",
+                texture.span(),
+            );
         }
         let strength = self.float(factor, texture, Channel::Blue);
         let share = self.float_product(strength.clone(), strength, span);
@@ -131,7 +146,11 @@ impl<'t> Importer<'t> {
     /// normal incidence, or metal where that is more than dielectrics have.
     pub(super) fn glossiness(&mut self, gloss: &'t Value<'t>, made: &mut Principled) -> Known<()> {
         let span = gloss.span();
-        self.report.instead("specular and glossiness are not rendered as such", "metal and roughness near them are", span);
+        self.report.instead(
+            "specular and glossiness are not rendered as such",
+            "metal and roughness near them are",
+            span,
+        );
         let specular = gloss.numbers("specularFactor", [1.0; 3])?;
         let texture = gloss.get("specularGlossinessTexture");
         let gloss = gloss.number("glossinessFactor", 1.0)?;

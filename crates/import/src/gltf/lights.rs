@@ -31,7 +31,11 @@ impl<'t> Importer<'t> {
             unit(world.vector([0.0, 0.0, -1.0])).ok_or_else(|| wrong("the light's node has no extent".into()))
         };
         if let Some(range) = light.get("range") {
-            self.report.instead("a light's range does not end it", "it falls with the square of the distance", range.span());
+            self.report.instead(
+                "a light's range does not end it",
+                "it falls with the square of the distance",
+                range.span(),
+            );
         }
         let position = narrow(world.point([0.0; 3]));
         let amount = narrow(amount);
@@ -46,7 +50,9 @@ impl<'t> Importer<'t> {
                 let outer = cone.number("outerConeAngle", std::f64::consts::FRAC_PI_4)?;
                 let inner = cone.number("innerConeAngle", 0.0)?;
                 if !(inner >= 0.0 && outer > inner && outer <= std::f64::consts::PI) {
-                    return Err(wrong(format!("the spot's angles are {inner} and {outer}, not 0 ≤ inner < outer ≤ π/2")));
+                    return Err(wrong(format!(
+                        "the spot's angles are {inner} and {outer}, not 0 ≤ inner < outer ≤ π/2"
+                    )));
                 }
                 LightKind::Spot {
                     position,
@@ -61,7 +67,8 @@ impl<'t> Importer<'t> {
                 return Err(Fault::new("unknown-kind", text, light.span()));
             }
         };
-        let wanted = [light.name(), node.name()].into_iter().find(|name| !name.is_empty()).unwrap_or_default();
+        let wanted =
+            [light.name(), node.name()].into_iter().find(|name| !name.is_empty()).unwrap_or_default();
         // Lights have names of their own, but one table serves.
         let name = self.free_name(wanted);
         self.desc.lights.push(Sourced::at(Light { name, light_group: None, kind }, node.span()));

@@ -40,12 +40,19 @@ impl<'t> Importer<'t> {
             }
             None => {
                 // §3.9.1: metallic and rough.
-                let mut plain =
-                    Principled { metallic: 1.0.into(), roughness: 1.0.into(), base_color: 1.0.into(), ..Principled::default() };
+                let mut plain = Principled {
+                    metallic: 1.0.into(),
+                    roughness: 1.0.into(),
+                    base_color: 1.0.into(),
+                    ..Principled::default()
+                };
                 if colored {
                     plain.base_color = self.vertex_color(Channel::Rgb, super::WHOLE);
                 }
-                Surface { material: Some(self.add_material("default", plain.into(), super::WHOLE)), emission: None }
+                Surface {
+                    material: Some(self.add_material("default", plain.into(), super::WHOLE)),
+                    emission: None,
+                }
             }
         };
         self.surfaces.insert((material, colored), made.clone());
@@ -145,7 +152,8 @@ impl<'t> Importer<'t> {
             return Ok(None);
         }
         self.shines |= factor.iter().any(|x| *x > 1.0);
-        let texture = value.get("emissiveTexture").and_then(|info| self.texture(info, Reading::color([1.0; 3])));
+        let texture =
+            value.get("emissiveTexture").and_then(|info| self.texture(info, Reading::color([1.0; 3])));
         Ok(Some(Emission { amount: EmissionAmount::Radiance(factor), texture, two_sided: false }))
     }
 }
@@ -155,6 +163,8 @@ fn alpha(value: &Value<'_>) -> Known<Alpha> {
         None | Some("OPAQUE") => Ok(Alpha::Opaque),
         Some("MASK") => Ok(Alpha::Mask(value.number("alphaCutoff", 0.5)?)),
         Some("BLEND") => Ok(Alpha::Blend),
-        Some(other) => Err(Fault::new("unknown-kind", format!("there is no alpha mode `{other}`"), value.span())),
+        Some(other) => {
+            Err(Fault::new("unknown-kind", format!("there is no alpha mode `{other}`"), value.span()))
+        }
     }
 }

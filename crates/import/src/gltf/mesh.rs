@@ -129,7 +129,8 @@ impl<'t> Importer<'t> {
         let some = (indices.len() * 6 < count).then(|| compact(&mut indices));
         let vertices = some.as_ref().map_or(count, Vec::len);
         let uses = |name: &str| usize::from(attributes.get(name).is_some());
-        let floats = 3 + 3 * uses("NORMAL") + 2 * (uses("TEXCOORD_0") + uses("TEXCOORD_1")) + 4 * uses("COLOR_0");
+        let floats =
+            3 + 3 * uses("NORMAL") + 2 * (uses("TEXCOORD_0") + uses("TEXCOORD_1")) + 4 * uses("COLOR_0");
         self.spend((4 * floats).saturating_mul(vertices), span)?;
         let columns = Columns { attributes, count, some: some.as_deref(), span };
         let read = |name: &str| columns.check(name, source.accessor(attributes, name)?);
@@ -147,7 +148,11 @@ impl<'t> Importer<'t> {
         let finite = part.positions.iter().flatten().all(|x| x.is_finite())
             && part.uvs.iter().flatten().flatten().chain(part.colors.iter().flatten()).all(|x| x.is_finite());
         if !finite {
-            return Err(Fault::new("out-of-range", "a position, texture coordinate or colour is not finite", span));
+            return Err(Fault::new(
+                "out-of-range",
+                "a position, texture coordinate or colour is not finite",
+                span,
+            ));
         }
         for v in part.uvs.iter_mut().flatten() {
             // Theirs grow downward.
@@ -258,7 +263,9 @@ mod tests {
         assert_eq!(triangles(4, None, 7), [[0, 1, 2], [3, 4, 5]]);
         assert_eq!(triangles(5, None, 5), [[0, 1, 2], [2, 1, 3], [2, 3, 4]]);
         assert_eq!(triangles(6, None, 5), [[0, 1, 2], [0, 2, 3], [0, 3, 4]]);
-        assert!([4, 5, 6].iter().all(|m| triangles(*m, None, 2).is_empty() && triangles(*m, None, 0).is_empty()));
+        assert!(
+            [4, 5, 6].iter().all(|m| triangles(*m, None, 2).is_empty() && triangles(*m, None, 0).is_empty())
+        );
     }
 
     #[test]

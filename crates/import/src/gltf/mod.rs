@@ -73,7 +73,8 @@ pub(crate) fn load(path: &Path) -> Loaded {
         read => {
             let why = read.err().unwrap_or_else(|| format!("has more than {} MiB of JSON", MOST_TEXT >> 20));
             sources.add(path, "");
-            let error = Diagnostic::error("file", format!("the scene file {} {why}", path.display())).at(WHOLE);
+            let error =
+                Diagnostic::error("file", format!("the scene file {} {why}", path.display())).at(WHOLE);
             return Loaded { desc: None, diagnostics: vec![error], sources };
         }
     };

@@ -86,12 +86,19 @@ impl<'t> Importer<'t> {
                 let copies = self.copies(node);
                 let copies = self.told(copies).unwrap_or_default();
                 let span = node.span();
-                found.uses.extend(
-                    copies.into_iter().map(|copy| Use { mesh, node: index, matrix: world.after(&copy), span }),
-                );
+                found.uses.extend(copies.into_iter().map(|copy| Use {
+                    mesh,
+                    node: index,
+                    matrix: world.after(&copy),
+                    span,
+                }));
             }
             if !world.0.iter().flatten().all(|x| (*x as f32).is_finite()) {
-                return Err(Fault::new("degenerate", format!("node {index} is not placed at finite points"), node.span()));
+                return Err(Fault::new(
+                    "degenerate",
+                    format!("node {index} is not placed at finite points"),
+                    node.span(),
+                ));
             }
             let camera = self.camera(node, &world);
             self.told(camera);
@@ -186,7 +193,9 @@ impl<'t> Importer<'t> {
         for used in uses {
             let group = Sourced::at(key.clone(), used.span);
             let transform = used.matrix.steps();
-            self.desc.instances.push(Sourced::at(Instance { name: None, group, transform, material: None }, used.span));
+            self.desc
+                .instances
+                .push(Sourced::at(Instance { name: None, group, transform, material: None }, used.span));
         }
     }
 

@@ -1,10 +1,11 @@
 //! Textures (glTF 2.0 §3.8), `KHR_texture_transform`, and how they enter numbers and colours.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use scenefile::desc::{
-    Channel, ColorDesc, ColorSpace, EmbeddedImage, FloatDesc, Image, ImageSource, Mapping, Texture, TextureFilter,
-    Triple, Wrap,
+    Channel, ColorDesc, ColorSpace, EmbeddedImage, FloatDesc, Image, ImageSource, Mapping, Texture,
+    TextureFilter, Triple, Wrap,
 };
 use scenefile::{Sourced, Span};
 
@@ -85,7 +86,9 @@ impl<'t> Importer<'t> {
             (ColorDesc::Rgb(a), ColorDesc::Rgb(b)) => ColorDesc::Rgb([0, 1, 2].map(|i| a[i] * b[i])),
             (a, b) if b == white => a,
             (a, b) if a == white => b,
-            (a, b) => ColorDesc::Texture(Sourced::at(self.add_texture(Texture::Product { a, b }, span), span)),
+            (a, b) => {
+                ColorDesc::Texture(Sourced::at(self.add_texture(Texture::Product { a, b }, span), span))
+            }
         }
     }
 
@@ -95,9 +98,17 @@ impl<'t> Importer<'t> {
     }
 
     /// From `a` to `b` by a share.
-    pub(super) fn float_mix(&mut self, a: FloatDesc, b: FloatDesc, share: FloatDesc, span: Span) -> FloatDesc {
+    pub(super) fn float_mix(
+        &mut self,
+        a: FloatDesc,
+        b: FloatDesc,
+        share: FloatDesc,
+        span: Span,
+    ) -> FloatDesc {
         match (a, b, share) {
-            (FloatDesc::Value(a), FloatDesc::Value(b), FloatDesc::Value(t)) => FloatDesc::Value(a + (b - a) * t),
+            (FloatDesc::Value(a), FloatDesc::Value(b), FloatDesc::Value(t)) => {
+                FloatDesc::Value(a + (b - a) * t)
+            }
             (a, _, FloatDesc::Value(0.0)) => a,
             (_, b, FloatDesc::Value(1.0)) => b,
             (a, b, amount) => {
@@ -171,7 +182,9 @@ impl<'t> Importer<'t> {
             found => found,
         };
         let Some((index, image)) = picked else {
-            let packed = ["KHR_texture_basisu", "MSFT_texture_dds"].into_iter().find(|e| texture.extension(e).is_some());
+            let packed = ["KHR_texture_basisu", "MSFT_texture_dds"]
+                .into_iter()
+                .find(|e| texture.extension(e).is_some());
             let text = match packed {
                 Some(name) => format!("textures of `{name}` are not read"),
                 None => "a texture without an image".to_owned(),
@@ -191,7 +204,7 @@ impl<'t> Importer<'t> {
     fn read_image(&mut self, index: usize, image: &'t Value<'t>) -> Known<Option<ImageSource>> {
         let source = self.source;
         let at = image.get("uri").or(image.get("bufferView")).unwrap_or(image).span();
-        let bytes = match image.text("uri")? {
+        let bytes: Arc<[u8]> = match image.text("uri")? {
             Some(uri) => match data_uri(uri, at) {
                 None => return Ok(Some(ImageSource::File(Sourced::at(local_path(uri, at)?, at)))),
                 Some(decoded) => decoded?.1.into(),
