@@ -20,6 +20,8 @@ const COLUMNS: usize = 16;
 /// A camera path about to start.
 pub(crate) struct CameraPath<'s> {
     pub walk: Walk<'s>,
+    /// In pixels; may lie beyond the border.
+    pub film_position: Vec2,
     pub sampler: Sampler,
     /// Numbers that fill their squares evenly over the passes of the pixel.
     pub strata: Strata,
@@ -97,8 +99,9 @@ pub(crate) fn start<'s>(
     let filter = settings.filter.sample(shifted_r2(settings.seed.rotate_left(32) ^ pixel, pass));
     let film_position = Vec2::new(x as f32 + 0.5, y as f32 + 0.5) + filter.offset;
     let camera = scene.camera().sample_we(film_position, sampler.next_2d());
-    let walk = Walk::new(scene, TransportMode::Radiance, camera.ray, Lanes::ONE, scene.camera_medium())
+    let media = scene.camera_medium(camera.ray.origin);
+    let walk = Walk::new(scene, TransportMode::Radiance, camera.ray, Lanes::ONE, media)
         .with_footprint(camera.width, camera.spread);
     let strata = Strata::new(settings.seed.rotate_left(32) ^ pixel, pass);
-    CameraPath { walk, sampler, strata, weight: filter.weight * camera.weight }
+    CameraPath { walk, film_position, sampler, strata, weight: filter.weight * camera.weight }
 }

@@ -254,9 +254,14 @@ fn typical_radius(scene: &Scene, radius: &PassRadius) -> f32 {
     let radius_at = |i: usize| {
         let at = [i % PROBES, i / PROBES].map(|k| (k as f32 + 0.5) / PROBES as f32);
         let camera = scene.camera().sample_we(Vec2::new(at[0] * width, at[1] * height), [0.5; 2]);
-        let mut walk =
-            Walk::new(scene, TransportMode::Radiance, camera.ray, Lanes::ONE, scene.camera_medium())
-                .with_footprint(camera.width, camera.spread);
+        let mut walk = Walk::new(
+            scene,
+            TransportMode::Radiance,
+            camera.ray,
+            Lanes::ONE,
+            scene.camera_medium(camera.ray.origin),
+        )
+        .with_footprint(camera.width, camera.spread);
         let vertex = walk.next_vertex()?;
         vertex.bsdf.has_diffuse().then(|| radius.at(vertex.footprint))
     };

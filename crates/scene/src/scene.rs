@@ -27,6 +27,15 @@ pub(crate) enum Outer {
     Instance { group: u32, render_from_object: Transform, material: Option<MaterialId> },
 }
 
+/// The dielectrics that the camera is in.
+#[derive(Debug)]
+pub(crate) enum CameraMedia {
+    /// The same for all rays.
+    Everywhere(MediumStack),
+    /// Rays start far from one another.
+    AskedEachTime,
+}
+
 /// A compiled scene.
 #[derive(Debug)]
 pub struct Scene {
@@ -55,7 +64,7 @@ pub struct Scene {
     /// Whether any solid absorbs.
     pub(crate) absorbs: bool,
     pub(crate) camera: Camera,
-    pub(crate) camera_medium: MediumStack,
+    pub(crate) camera_media: CameraMedia,
     pub(crate) resolution: [u32; 2],
     pub(crate) bounds: Bounds3,
     pub(crate) triangles: u64,
@@ -210,9 +219,19 @@ impl Scene {
         &self.camera
     }
 
-    /// The dielectrics that the camera is in.
-    pub fn camera_medium(&self) -> MediumStack {
-        self.camera_medium
+    /// The dielectrics that the camera is in where a ray of it starts. Cost: for parallel rays in a scene with dielectrics, a
+    /// walk through the scene.
+    #[inline]
+    pub fn camera_medium(&self, origin: Vec3) -> MediumStack {
+        match self.camera_media {
+            CameraMedia::Everywhere(media) => media,
+            CameraMedia::AskedEachTime => self.media_of_parallel_ray(origin),
+        }
+    }
+
+    #[inline(never)]
+    fn media_of_parallel_ray(&self, origin: Vec3) -> MediumStack {
+        if self.bounds.contains(origin) { media_at(self, origin) } else { MediumStack::default() }
     }
 
     /// Width and height of the film, in pixels.

@@ -44,6 +44,27 @@ pub(crate) fn direction(mapping: SkyMapping, [u, v]: [f64; 2]) -> Vec3 {
     Vec3::new(x as f32, y as f32, z as f32).normalize()
 }
 
+/// The point of [0, 1]² that stands for what a point, less than 1 beyond an edge, would go on with over the sphere. Of longitudes
+/// and latitudes all points may stand as they are.
+pub(crate) fn continued(mapping: SkyMapping, [u, v]: [f64; 2]) -> [f64; 2] {
+    if mapping == SkyMapping::LatLong {
+        return [u, v];
+    }
+    let beyond = |x: f64| !(0.0..=1.0).contains(&x);
+    let folded = |x: f64| if x < 0.0 { -x } else { 2.0 - x };
+    let [u, v] = if beyond(u) { [folded(u), 1.0 - v] } else { [u, v] };
+    if beyond(v) { [1.0 - u, folded(v)] } else { [u, v] }
+}
+
+/// Solid angle over area of the square at its height `v`, steradians.
+pub(crate) fn solid_angle(mapping: SkyMapping, v: f64) -> f64 {
+    use std::f64::consts::PI;
+    match mapping {
+        SkyMapping::LatLong => 2.0 * PI * PI * (PI * v).sin().abs(),
+        SkyMapping::EqualArea => 4.0 * PI,
+    }
+}
+
 /// The pixel of a picture of `size` that stands where (column, row), which may lie up to a picture's width outside, would
 /// go on over the sphere.
 pub(crate) fn wrapped(mapping: SkyMapping, [width, height]: [usize; 2], i: i64, j: i64) -> [usize; 2] {
@@ -105,6 +126,23 @@ mod tests {
                 let w = warp::sphere(s.next_2d());
                 let back = direction(mapping, square(mapping, w).map(f64::from));
                 assert!(back.distance(w) < 2e-6, "{mapping:?} {w} {back}");
+            }
+        }
+    }
+
+    #[test]
+    fn solid_angles_are_the_jacobian_and_edges_are_sewn() {
+        let h = 1e-3;
+        for mapping in BOTH {
+            for k in 0..100 {
+                let [u, v] = [0.031 + 0.0931 * f64::from(k % 10), 0.047 + 0.0911 * f64::from(k / 10)];
+                let d = |du: f64, dv: f64| direction(mapping, [u + du, v + dv]).as_dvec3() / (2.0 * h);
+                let area = (d(h, 0.0) - d(-h, 0.0)).cross(d(0.0, h) - d(0.0, -h)).length();
+                assert!((area / solid_angle(mapping, v) - 1.0).abs() < 0.01, "{mapping:?} {u} {v} {area}");
+                let at = |u: f64, v: f64| direction(mapping, continued(mapping, [u, v]));
+                let sewn = [(at(-h, v), at(h, v)), (at(1.0 + h, v), at(1.0 - h, v))];
+                let poles = [(at(u, -h), at(u, h)), (at(u, 1.0 + h), at(u, 1.0 - h))];
+                assert!(sewn.iter().chain(&poles).all(|(a, b)| a.distance(*b) < 0.02), "{mapping:?} {u} {v}");
             }
         }
     }

@@ -27,7 +27,7 @@ fn equal_inline_dielectrics_are_one_medium() {
     let ior_at = |p: Vec3| {
         let mut desc = desc.clone();
         desc.camera = Some(Camera { position: p.to_array(), look_at: [9.0; 3], ..Camera::default() }.into());
-        scene::compile(&desc).unwrap().0.camera_medium().ior()
+        scene::compile(&desc).unwrap().0.camera_medium(Vec3::ZERO).ior()
     };
     assert_eq!(ior_at(Vec3::X * 0.1), 1.33);
     assert_eq!(ior_at(Vec3::X * 0.5), 1.0);

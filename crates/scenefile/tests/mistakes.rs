@@ -164,7 +164,7 @@ power = 2
                |
             11 | kind = "fisheye"
                |        ^^^^^^^^^
-               = help: there are "pinhole", "thin-lens"
+               = help: there are "pinhole", "thin-lens", "orthographic", "spherical"
 
             error[out-of-range]: `fov` of [camera] must be a number > 0 and < 180, not 180
               --> box.toml:13:7

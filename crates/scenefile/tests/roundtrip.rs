@@ -453,12 +453,15 @@ impl Dice {
     }
 
     fn camera(&mut self) -> Camera {
-        let kind = match self.below(3) {
+        let mapping = if self.coin() { SkyMapping::LatLong } else { SkyMapping::EqualArea };
+        let kind = match self.below(5) {
+            3 => CameraKind::Orthographic { extent: self.positive() },
+            4 => CameraKind::Spherical { mapping },
             0 => CameraKind::Pinhole,
             1 => CameraKind::ThinLens { lens_radius: self.positive(), focus_distance: None },
             _ => CameraKind::ThinLens { lens_radius: self.positive(), focus_distance: Some(self.positive()) },
         };
-        Camera {
+        let whole = Camera {
             kind,
             position: [0.0; 3],
             look_at: self.direction(),
@@ -466,6 +469,13 @@ impl Dice {
             fov: 1.0 + self.unit() * 178.0,
             shift: [self.unit(), 0.0],
             fov_axis: [FovAxis::X, FovAxis::Y, FovAxis::Smaller][self.below(3) as usize],
+        };
+        // What the kind has no key for stays as it is.
+        let Camera { fov, fov_axis, shift, .. } = Camera::default();
+        match kind {
+            CameraKind::Spherical { .. } => Camera { fov, fov_axis, shift, ..whole },
+            CameraKind::Orthographic { .. } => Camera { fov, ..whole },
+            CameraKind::Pinhole | CameraKind::ThinLens { .. } => whole,
         }
     }
 

@@ -7,7 +7,7 @@ const SIDE: u32 = 8;
 /// What is odd about the place of the camera: inside a dielectric, or inside a solid whose back is all that it sees.
 pub(crate) fn camera_warning(scene: &Scene, desc: &SceneDesc) -> Option<Diagnostic> {
     let span = desc.camera.as_ref().and_then(|camera| camera.span);
-    if let Some(medium) = scene.camera_medium().current() {
+    if let Some(medium) = scene.camera_medium(scene.camera().position()).current() {
         let message = format!("the camera is inside a dielectric of index {}", medium.ior);
         let help = "move it outside, unless it is meant to look out of the glass or the water";
         return Some(Diagnostic::warning("camera-inside", message).at(span).help(help));

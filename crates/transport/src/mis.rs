@@ -52,11 +52,11 @@ impl SubpathMis {
         Self { edge: kept(edge), rest: kept(rest), merges: kept(merges) }
     }
 
-    /// At the camera; `density_w`: camera paths over light paths, per steradian of the first ray. 0: light paths cannot
-    /// be connected to it.
-    pub fn of_camera(density_w: f64) -> Self {
+    /// At the camera; `density`: camera paths over light paths, per steradian of the first ray or, of parallel rays, per area
+    /// across them (its edge then counts with length 1). 0: light paths cannot be connected to it.
+    pub fn of_camera(density: f64) -> Self {
         // Georgiev 2012, eq. 31 and 32.
-        Self::new(if density_w > 0.0 { 1.0 / density_w } else { 0.0 }, 0.0, 0.0)
+        Self::new(if density > 0.0 { 1.0 / density } else { 0.0 }, 0.0, 0.0)
     }
 
     /// The same where nothing could have been connected across the last edge.
@@ -65,7 +65,8 @@ impl SubpathMis {
         Self { edge: 0.0, ..self }
     }
 
-    /// After an edge of that squared length (1 for the first edge of a light path, whose densities hold it already)
+    /// After an edge of that squared length (1 for the first edge of a light path, whose densities hold it already, and for that
+    /// of a parallel ray)
     /// that meets a surface under that |cos|.
     #[must_use]
     pub fn arrived(self, distance2: f64, cos: f64) -> Self {

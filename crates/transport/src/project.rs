@@ -39,16 +39,16 @@ pub fn project(scene: &Scene, light: &LightVertex) -> Option<(Projection, Vec3)>
     }
     let left = vertex.transmittance(scene, wi.wi, wi.distance);
     let radiance = light.flux * f * left * wi.importance;
-    let density_w = f64::from(camera.pdf_we_w(wi.p, -wi.wi));
+    let density_a = camera.pdf_we(wi.p, -wi.wi).across(f64::from(wi.distance).powi(2));
     let end = End {
         mis: light.at.mis,
         merging: merging(&vertex.bsdf),
         reverse: density(vertex, wi.wi, vertex.wo, TransportMode::Radiance),
-        reached: density_w * geometric_cos(vertex, wi.wi) / f64::from(wi.distance).powi(2),
+        reached: density_a * geometric_cos(vertex, wi.wi),
     };
-    let spread = camera.sample_we(wi.film_position, [0.5; 2]).spread;
-    let projection =
-        Projection { film_position: wi.film_position, radiance, footprint: spread * wi.distance, end };
+    let pixel = camera.sample_we(wi.film_position, [0.5; 2]);
+    let footprint = pixel.width + pixel.spread * wi.distance;
+    let projection = Projection { film_position: wi.film_position, radiance, footprint, end };
     Some((projection, wi.p))
 }
 

@@ -1,6 +1,7 @@
 use bsdf::{Bsdf, BsdfKind, Lobes, TransportMode};
 use math::Vec3;
 use sampling::Sampler;
+use scene::camera::WePdf;
 use scene::light::LeSample;
 use scene::{LightId, Scene};
 
@@ -17,8 +18,19 @@ pub struct Subpath<'s> {
     /// As the path left its last vertex, or where it starts.
     leaving: SubpathMis,
     from: Vec3,
-    /// Where it starts, until its first vertex is known.
-    start: Option<(LightId, LeSample)>,
+    /// Until its first vertex is known.
+    start: Start,
+}
+
+/// What the first edge of a subpath needs.
+#[derive(Clone, Copy, Debug)]
+enum Start {
+    /// It starts there.
+    Light(LightId, LeSample),
+    /// The camera's rays are parallel.
+    Parallel,
+    /// Nothing more.
+    Point,
 }
 
 /// A vertex of a subpath.
@@ -57,20 +69,22 @@ pub struct EyeEnd {
 }
 
 impl<'s> Subpath<'s> {
-    /// From the camera; `density_w`: camera paths for each light path, per steradian of the first ray (0: light paths
-    /// cannot be joined to it).
+    /// From the camera; `density`: camera paths for each light path (0: light paths cannot be joined to it).
     #[inline]
-    pub fn from_camera(walk: Walk<'s>, density_w: f64, connections: Connections) -> Self {
-        let mis = SubpathMis::of_camera(density_w);
+    pub fn from_camera(walk: Walk<'s>, density: WePdf, connections: Connections) -> Self {
+        let (mis, start) = match density {
+            WePdf::PerSteradian(density) => (SubpathMis::of_camera(density), Start::Point),
+            WePdf::PerArea(density) => (SubpathMis::of_camera(density), Start::Parallel),
+        };
         let leaving = if connections == Connections::Made { mis } else { mis.without_edge() };
-        Self { from: walk.ray.origin, walk, connections, leaving, start: None }
+        Self { from: walk.ray.origin, walk, connections, leaving, start }
     }
 
     /// From a light.
     #[inline]
     pub fn from_light(walk: Walk<'s>, id: LightId, le: LeSample, connections: Connections) -> Self {
         let leaving = SubpathMis::default();
-        Self { from: le.p, walk, connections, leaving, start: Some((id, le)) }
+        Self { from: le.p, walk, connections, leaving, start: Start::Light(id, le) }
     }
 
     /// The next surface.
@@ -82,13 +96,14 @@ impl<'s> Subpath<'s> {
         }
         let vertex = vertex?;
         let p = vertex.hit.p;
-        let distance2 = match self.start.take() {
-            Some((id, le)) => {
+        let distance2 = match std::mem::replace(&mut self.start, Start::Point) {
+            Start::Light(id, le) => {
                 let start = LightDensities::of_start(self.walk.scene(), id, &le, p).start(self.connections);
                 self.leaving = if self.walk.is_clear() { start } else { start.without_edge() };
                 1.0
             }
-            None => f64::from(p.distance_squared(self.from)),
+            Start::Parallel => 1.0,
+            Start::Point => f64::from(p.distance_squared(self.from)),
         };
         let mis = self.leaving.arrived(distance2, geometric_cos(&vertex, vertex.wo));
         Some(PathVertex { vertex, mis })

@@ -41,11 +41,15 @@ impl<'a> Eye<'a> {
 
 impl Tracer for Eye<'_> {
     #[inline]
-    fn trace<S: Sink>(&self, CameraPath { walk, mut sampler, .. }: CameraPath<'_>, sink: &mut S) {
+    fn trace<S: Sink>(&self, path: CameraPath<'_>, sink: &mut S) {
+        let CameraPath { walk, mut sampler, film_position, .. } = path;
         let plan = &self.plan;
-        let ray = walk.ray;
-        let density_w = f64::from(walk.scene().camera().pdf_we_w(ray.origin, ray.direction));
-        let mut path = Subpath::from_camera(walk, density_w * plan.film_density, plan.connections);
+        let (ray, camera) = (walk.ray, walk.scene().camera());
+        // Light paths are joined to what is in the picture. A picture of all directions has what lies beyond its border
+        // elsewhere.
+        let rays = if camera.holds(film_position) { plan.film_density } else { 0.0 };
+        let density = camera.pdf_we(ray.origin, ray.direction).times(rays);
+        let mut path = Subpath::from_camera(walk, density, plan.connections);
         let mut class = PathClass::default();
         // Radius and η are those of the first vertex that is not specular.
         let mut merging: Option<(f32, f64)> = None;

@@ -6,6 +6,7 @@
 mod agreement;
 mod auto;
 mod balance;
+mod cameras;
 mod caustics;
 mod closed_forms;
 mod depth;

@@ -27,7 +27,9 @@ fn from_above(objects: Vec<Object>) -> SceneDesc {
 fn vertex(scene: &Scene, origin: Triple, target: Triple) -> Vertex {
     let (origin, target) = (Vec3::from(origin), Vec3::from(target));
     let ray = Ray::new(origin, (target - origin).normalize());
-    Walk::new(scene, TransportMode::Radiance, ray, Lanes::ONE, scene.camera_medium()).next_vertex().unwrap()
+    Walk::new(scene, TransportMode::Radiance, ray, Lanes::ONE, scene.camera_medium(ray.origin))
+        .next_vertex()
+        .unwrap()
 }
 
 /// A diffuse floor of albedo 0.8 under sunlight of 1 W/m² that comes 60° off the normal: radiance 0.8/π·cos 60°.

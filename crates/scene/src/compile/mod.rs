@@ -8,13 +8,15 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use accel::{Bvh, Geometry};
-use math::{Bounds3, Transform, Vec3};
-use scenefile::desc::{CameraKind, FovAxis, LightKind, MaterialRef, Object as ObjectDesc, SceneDesc};
+use math::{Bounds3, Transform, Vec2, Vec3};
+use scenefile::desc::{
+    Camera as CameraDesc, CameraKind, FovAxis, LightKind, MaterialRef, Object as ObjectDesc, SceneDesc,
+};
 use scenefile::{Diagnostic, Sourced, Span};
 
-use crate::camera::{Fov, Lens};
+use crate::camera::{CameraError, Fov, Lens, Side};
 use crate::light::LightPicker;
-use crate::scene::{Group, Outer, media_at};
+use crate::scene::{CameraMedia, Group, Outer, media_at};
 use crate::{
     Camera, Light, LightId, Material, MaterialId, MaterialKind, MediumStack, Object, Scene, Shape, Target,
     Targets,
@@ -335,20 +337,7 @@ impl<'d> Compiler<'d> {
             );
             return None;
         };
-        let fov = match camera.fov_axis {
-            FovAxis::X => Fov::Horizontal(camera.fov),
-            FovAxis::Y => Fov::Vertical(camera.fov),
-            FovAxis::Smaller => Fov::Smaller(camera.fov),
-        };
-        let (position, look_at) = (Vec3::from(camera.position), Vec3::from(camera.look_at));
-        let lens = match camera.kind {
-            CameraKind::Pinhole | CameraKind::Orthographic { .. } | CameraKind::Spherical { .. } => None,
-            CameraKind::ThinLens { lens_radius, focus_distance } => Some(Lens {
-                radius: lens_radius,
-                focus_distance: focus_distance.unwrap_or(position.distance(look_at)),
-            }),
-        };
-        match Camera::perspective(position, look_at, Vec3::from(camera.up), fov, self.desc.film.size, lens) {
+        match built_camera(camera, self.desc.film.size) {
             Ok(camera) => Some(camera),
             Err(e) => {
                 self.diagnostics.push(Diagnostic::error("bad-camera", e.to_string()).at(camera.span));
@@ -393,14 +382,17 @@ impl<'d> Compiler<'d> {
             targets,
             camera,
             absorbs,
-            camera_medium: MediumStack::default(),
+            camera_media: CameraMedia::Everywhere(MediumStack::default()),
             resolution: self.desc.film.size,
             bounds: self.bounds,
             triangles: self.triangles,
             mesh_bytes: self.mesh_bytes,
         };
         if scene.materials.iter().any(|m: &Material| m.medium(MaterialId(0)).is_some()) {
-            scene.camera_medium = media_at(&scene, scene.camera.position());
+            scene.camera_media = match scene.camera.is_parallel() {
+                true => CameraMedia::AskedEachTime,
+                false => CameraMedia::Everywhere(media_at(&scene, scene.camera.position())),
+            };
             scene.light_media = self
                 .light_points
                 .iter()
@@ -409,4 +401,27 @@ impl<'d> Compiler<'d> {
         }
         (scene, self.diagnostics)
     }
+}
+
+fn built_camera(camera: &CameraDesc, size: [u32; 2]) -> Result<Camera, CameraError> {
+    let (position, look_at, up) =
+        (Vec3::from(camera.position), Vec3::from(camera.look_at), Vec3::from(camera.up));
+    let (fov, side) = match camera.fov_axis {
+        FovAxis::X => (Fov::Horizontal(camera.fov), Side::Width),
+        FovAxis::Y => (Fov::Vertical(camera.fov), Side::Height),
+        FovAxis::Smaller => (Fov::Smaller(camera.fov), Side::Smaller),
+    };
+    let built = match camera.kind {
+        CameraKind::Pinhole => Camera::perspective(position, look_at, up, fov, size, None),
+        CameraKind::ThinLens { lens_radius, focus_distance } => {
+            let focus_distance = focus_distance.unwrap_or(position.distance(look_at));
+            let lens = Lens { radius: lens_radius, focus_distance };
+            Camera::perspective(position, look_at, up, fov, size, Some(lens))
+        }
+        CameraKind::Orthographic { extent } => {
+            Camera::orthographic(position, look_at, up, side, extent, size)
+        }
+        CameraKind::Spherical { mapping } => Camera::spherical(position, look_at, up, mapping, size),
+    };
+    built?.shifted(Vec2::from(camera.shift))
 }

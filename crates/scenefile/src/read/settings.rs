@@ -73,19 +73,20 @@ fn read_camera(report: &mut Report, r: &Reader<'_>) -> Option<Camera> {
                 .zip(focus_distance)
                 .map(|(lens_radius, focus_distance)| CameraKind::ThinLens { lens_radius, focus_distance })
         }
+        Some("orthographic") => r.number(report, "extent").map(|extent| CameraKind::Orthographic { extent }),
+        Some("spherical") => {
+            super::light::mapping(report, r).map(|mapping| CameraKind::Spherical { mapping })
+        }
         Some(_) => Some(CameraKind::Pinhole),
         None => None,
     };
     let position = r.point(report, "position");
     let look_at = r.point(report, "look_at");
     let up = r.point(report, "up");
-    let fov = r.number(report, "fov");
-    let fov_axis = r.word(report, "fov_axis").map(|word| match word {
-        "x" => FovAxis::X,
-        "y" => FovAxis::Y,
-        _ => FovAxis::Smaller,
-    });
-    let shift = r.pair(report, "shift");
+    let Camera { fov, fov_axis, shift, .. } = Camera::default();
+    let fov = if r.has("fov") { r.number(report, "fov") } else { Some(fov) };
+    let fov_axis = if r.has("fov_axis") { self::fov_axis(report, r) } else { Some(fov_axis) };
+    let shift = if r.has("shift") { r.pair(report, "shift") } else { Some(shift) };
     Some(Camera {
         kind: kind?,
         position: position?,
@@ -94,6 +95,14 @@ fn read_camera(report: &mut Report, r: &Reader<'_>) -> Option<Camera> {
         fov: fov?,
         fov_axis: fov_axis?,
         shift: shift?,
+    })
+}
+
+fn fov_axis(report: &mut Report, r: &Reader<'_>) -> Option<FovAxis> {
+    r.word(report, "fov_axis").map(|word| match word {
+        "x" => FovAxis::X,
+        "y" => FovAxis::Y,
+        _ => FovAxis::Smaller,
     })
 }
 

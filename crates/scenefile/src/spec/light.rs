@@ -23,7 +23,7 @@ const COLOR: Key = key(
 const DIRECTION: Key = key("direction", Direction, "", Required, "The way the light travels.");
 
 /// Names of `desc::SkyMapping`.
-const MAPPINGS: &[Word] = &[
+pub(super) const MAPPINGS: &[Word] = &[
     word(
         "lat-long",
         "Columns are longitudes, rows latitudes from +y down; the middle is +z, its left quarter +x.",

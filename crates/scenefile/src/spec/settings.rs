@@ -112,6 +112,28 @@ pub const FILM: Section = Section {
 const FOV_AXES: &[Word] =
     &[word("x", "The width."), word("y", "The height."), word("smaller", "The smaller of the two.")];
 
+const FOV: Key = key(
+    "fov",
+    Number(Range { max: 180.0, ..POSITIVE }),
+    "degrees",
+    Preset::Number(40.0),
+    "The full field of view.",
+);
+const FOV_AXIS: Key = key(
+    "fov_axis",
+    Kind::Word(FOV_AXES),
+    "",
+    Preset::Word("smaller"),
+    "The side of the picture that fov spans.",
+);
+const SHIFT: Key = key(
+    "shift",
+    Kind::Pair(super::ANY),
+    "",
+    Pair([0.0; 2]),
+    "Shifts the lens by this share of the picture's width to the right and of its height up.",
+);
+
 /// `[camera]`.
 pub const CAMERA: Section = Section {
     name: "camera",
@@ -125,13 +147,16 @@ pub const CAMERA: Section = Section {
             Variant {
                 name: "pinhole",
                 doc: "All is in focus.",
-                keys: &[],
+                keys: &[&[FOV, FOV_AXIS, SHIFT]],
                 example: "[camera]\nposition = [0, 1, 5]\nlook_at = [0, 1, 0]\nfov = 40\n",
             },
             Variant {
                 name: "thin-lens",
                 doc: "A lens that focuses on one plane.",
                 keys: &[&[
+                    FOV,
+                    FOV_AXIS,
+                    SHIFT,
                     key("lens_radius", Number(POSITIVE), "scene units", Required, "Radius of the aperture."),
                     key(
                         "focus_distance",
@@ -143,33 +168,40 @@ pub const CAMERA: Section = Section {
                 ]],
                 example: "[camera]\nkind = \"thin-lens\"\nposition = [0, 1, 5]\nlook_at = [0, 1, 0]\nlens_radius = 0.05\n",
             },
+            Variant {
+                name: "orthographic",
+                doc: "Parallel rays: nothing looks smaller for being far away.",
+                keys: &[&[
+                    key(
+                        "extent",
+                        Number(POSITIVE),
+                        "scene units",
+                        Required,
+                        "What the picture spans; rays start at position, and what lies behind it is not seen.",
+                    ),
+                    Key { doc: "The side of the picture that extent spans.", ..FOV_AXIS },
+                    SHIFT,
+                ]],
+                example: "[camera]\nkind = \"orthographic\"\nposition = [5, 5, 5]\nlook_at = [0, 0, 0]\nextent = 3\n",
+            },
+            Variant {
+                name: "spherical",
+                doc: "The picture is of all directions from one point.",
+                keys: &[&[key(
+                    "mapping",
+                    Kind::Word(super::light::MAPPINGS),
+                    "",
+                    Preset::Word("lat-long"),
+                    "Which direction each point of the picture stands for; look_at is in its middle.",
+                )]],
+                example: "[camera]\nkind = \"spherical\"\nposition = [0, 1, 0]\nlook_at = [0, 1, -1]\n",
+            },
         ],
     }),
     keys: &[
         key("position", Point, "scene units", Required, "The eye."),
         key("look_at", Point, "scene units", Required, "What is in the middle of the picture."),
         key("up", Direction, "", Triple([0.0, 1.0, 0.0]), "What is up in the picture."),
-        key(
-            "fov",
-            Number(Range { max: 180.0, ..POSITIVE }),
-            "degrees",
-            Preset::Number(40.0),
-            "The full field of view.",
-        ),
-        key(
-            "fov_axis",
-            Kind::Word(FOV_AXES),
-            "",
-            Preset::Word("smaller"),
-            "The side of the picture that fov spans.",
-        ),
-        key(
-            "shift",
-            Kind::Pair(super::ANY),
-            "",
-            Pair([0.0; 2]),
-            "Shifts the lens by this share of the picture's width to the right and of its height up.",
-        ),
     ],
     example: "",
 };

@@ -246,8 +246,9 @@ impl<'p> Explicit<'p> {
             from_light.push(forward(i - 1) * cos(i, node.to_light) / d2(p(i), p(i - 1)));
         }
         let mut from_eye = vec![0.0; m + 1];
-        let camera = f64::from(scene.camera().pdf_we_w(path.lens, -nodes[m - 1].to_camera));
-        from_eye[m] = film_density * camera * cos(m - 1, nodes[m - 1].to_camera) / d2(path.lens, p(m - 1));
+        let camera =
+            scene.camera().pdf_we(path.lens, -nodes[m - 1].to_camera).across(d2(path.lens, p(m - 1)));
+        from_eye[m] = film_density * camera * cos(m - 1, nodes[m - 1].to_camera);
         for i in (1..m).rev() {
             from_eye[i] = backward(i) * cos(i - 1, nodes[i - 1].to_camera) / d2(p(i), p(i - 1));
         }
