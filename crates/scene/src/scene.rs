@@ -5,8 +5,8 @@ use bsdf::Bsdf;
 use color::{LaneBasis, Lanes};
 use math::{Bounds3, Ray, Transform, Vec3};
 
-use crate::light::LightPicker;
-use crate::material::Lookup;
+use crate::light::{LeSample, LiSample, LightHit, LightPicker};
+use crate::material::{Lookup, Place};
 use crate::shape::to_world;
 use crate::{
     Boundary, Camera, Light, LightId, Material, MaterialId, Medium, MediumStack, Object, SurfaceInteraction,
@@ -36,6 +36,15 @@ pub(crate) enum CameraMedia {
     AskedEachTime,
 }
 
+/// What makes the radiance of an area light vary over its surface.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LightTexture {
+    /// Index of a texture: the factor.
+    pub texture: u32,
+    /// Geometry id of the object that shines.
+    pub object: u32,
+}
+
 /// A compiled scene.
 #[derive(Debug)]
 pub struct Scene {
@@ -48,6 +57,8 @@ pub struct Scene {
     pub(crate) materials: Vec<Material>,
     pub(crate) textures: Vec<Texture>,
     pub(crate) lights: Vec<Light>,
+    /// By light: its texture, if it has one.
+    pub(crate) light_textures: Vec<Option<LightTexture>>,
     pub(crate) light_names: Vec<String>,
     /// By light.
     pub(crate) light_groups: Vec<u32>,
@@ -167,6 +178,61 @@ impl Scene {
         &self.lights[id.0 as usize]
     }
 
+    /// [`Light::sample_li`], with the light's texture.
+    #[inline]
+    pub fn sample_li(&self, id: LightId, p: Vec3, n: Vec3, u_pick: f32, u: [f32; 2]) -> Option<LiSample> {
+        let light = self.light(id);
+        let mut li = light.sample_li(p, n, u_pick, u)?;
+        if light.is_textured() {
+            li.radiance *= self.light_texture(id, li.p, li.prim);
+        }
+        Some(li)
+    }
+
+    /// [`Light::sample_le`], with the light's texture.
+    pub fn sample_le(&self, id: LightId, u_pick: f32, u_pos: [f32; 2], u_dir: [f32; 2]) -> Option<LeSample> {
+        self.light(id).sample_le(u_pick, u_pos, u_dir).map(|le| self.textured(id, le))
+    }
+
+    /// [`Light::sample_le_toward`] the scene's targets, with the light's texture.
+    pub fn sample_le_toward(
+        &self,
+        id: LightId,
+        u_pick: f32,
+        u_pos: [f32; 2],
+        u_dir: [f32; 2],
+    ) -> Option<LeSample> {
+        let le = self.light(id).sample_le_toward(&self.targets, u_pick, u_pos, u_dir);
+        le.map(|le| self.textured(id, le))
+    }
+
+    fn textured(&self, id: LightId, le: LeSample) -> LeSample {
+        match self.light(id).is_textured() {
+            true => LeSample { radiance: le.radiance * self.light_texture(id, le.p, le.prim), ..le },
+            false => le,
+        }
+    }
+
+    /// Radiance of an area light that leaves along `w` (unit) at a point of it. Zero for lights without a surface.
+    #[inline]
+    pub fn emitted(&self, id: LightId, hit: &LightHit, w: Vec3) -> Lanes {
+        let light = self.light(id);
+        let radiance = light.emitted(hit.ng, w);
+        if light.is_textured() { radiance * self.light_texture(id, hit.p, hit.prim) } else { radiance }
+    }
+
+    /// What a light's texture makes of its radiance at a point: all who ask get the same.
+    #[inline(never)]
+    fn light_texture(&self, id: LightId, p: Vec3, prim: u32) -> Lanes {
+        let texture = self.light_textures.get(id.0 as usize).copied().flatten();
+        match texture.and_then(|t| Some((t.texture, self.outer.get(t.object as usize)?))) {
+            Some((texture, Outer::Object(object))) => {
+                light_factor(&self.textures, texture, object, p, prim, 0.0)
+            }
+            _ => Lanes::ONE,
+        }
+    }
+
     /// What a light is called in messages.
     pub fn light_name(&self, id: LightId) -> &str {
         self.light_names.get(id.0 as usize).map_or("", String::as_str)
@@ -270,6 +336,20 @@ impl Scene {
             texture_bytes: self.textures.iter().map(texture_bytes).sum(),
         }
     }
+}
+
+/// The factor on the radiance of an object at a point of it, averaged over about `width`, in units of length.
+pub(crate) fn light_factor(
+    textures: &[Texture],
+    texture: u32,
+    object: &Object,
+    p: Vec3,
+    prim: u32,
+    width: f32,
+) -> Lanes {
+    let hit = object.at(p, prim);
+    let lookup = Lookup { textures, footprint: width };
+    Place { hit: Some(&hit), lookup: &lookup }.emission(texture)
 }
 
 /// The surface of an object of a group at a hit of a ray of the world.

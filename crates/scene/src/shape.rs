@@ -56,6 +56,16 @@ impl Object {
         }
     }
 
+    /// The surface at a point of it; `prim`: the triangle.
+    pub(crate) fn at(&self, p: Vec3, prim: u32) -> SurfaceInteraction {
+        let mut hit = accel::Hit { t: 0.0, u: 0.0, v: 0.0, geom: 0, prim, instance: accel::NO_INSTANCE };
+        let ray = Ray::new(p, Vec3::Z);
+        if let Shape::Mesh(mesh) = &self.shape {
+            [_, hit.u, hit.v] = barycentric(p, &mesh.corners(prim as usize));
+        }
+        self.interaction(&ray, &hit)
+    }
+
     /// What all shapes give alike.
     #[inline]
     fn blank(&self, hit: &accel::Hit) -> SurfaceInteraction {
@@ -113,6 +123,20 @@ fn triangle(mesh: &TriangleMesh, mut s: SurfaceInteraction, hit: &accel::Hit) ->
         s.dpdu = Vec3::new(t.dpdu.x, t.dpdu.y, t.dpdu.z);
     }
     s
+}
+
+/// Barycentric coordinates of the point of a triangle that lies nearest to `p`, up to rounding: for points on it. 0 where it
+/// has no area.
+pub(crate) fn barycentric(p: Vec3, [a, b, c]: &[Vec3; 3]) -> [f32; 3] {
+    let [p, b, c] = [p, *b, *c].map(|v| (v - *a).as_dvec3());
+    let n = b.cross(c);
+    let over = 1.0 / n.length_squared();
+    let (b1, b2) = (p.cross(c).dot(n) * over, b.cross(p).dot(n) * over);
+    if !(b1.is_finite() && b2.is_finite()) {
+        return [0.0; 3];
+    }
+    let (b1, b2) = (b1.clamp(0.0, 1.0), b2.clamp(0.0, 1.0));
+    [(1.0 - b1 - b2).max(0.0), b1, b2].map(|x| x as f32)
 }
 
 /// Where a point of a triangle lies on a texture: the fields of [`SurfaceInteraction`] of these names.

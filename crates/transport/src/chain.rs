@@ -76,11 +76,11 @@ impl EyeChain {
     /// the scene.
     pub fn merge_over_emission(&self, walk: &Walk<'_>, light: LightId, hit: Option<LightHit>) -> f64 {
         let w = -walk.ray.direction;
-        let (p, ng, cos) = match hit {
-            Some(hit) => (hit.p, hit.ng, f64::from(hit.ng.dot(w).abs())),
-            None => (walk.ray.origin, w, 1.0),
+        let (start, cos) = match hit {
+            Some(hit) => (hit, f64::from(hit.ng.dot(w).abs())),
+            None => (LightHit { p: walk.ray.origin, ng: w, prim: 0 }, 1.0),
         };
-        let emitted = emission_density(walk.scene(), light, p, ng, w);
+        let emitted = emission_density(walk.scene(), light, &start, w);
         if cos > 0.0 { self.acceptance * self.ratio * emitted / cos } else { 0.0 }
     }
 
@@ -105,7 +105,8 @@ impl EyeChain {
             (true, false) => 0.0,
         };
         let back = f64::from(z.bsdf.pdf_w(li.wi, z.wo, TransportMode::Importance));
-        let emitted = emission_density(scene, light, li.p, front(scene, light, li.n, w), w);
+        let start = LightHit { p: li.p, ng: front(scene, light, li.n, w), prim: li.prim };
+        let emitted = emission_density(scene, light, &start, w);
         self.acceptance * self.ratio * cosines(z, li.wi) * back * emitted * at_light
             / (f64::from(pmf) * f64::from(li.pdf_w))
     }
@@ -215,9 +216,9 @@ fn cosines(z: &Vertex, out: Vec3) -> f64 {
     f64::from(z.hit.ng.dot(out).abs()) / cos_in.max(f64::from(f32::MIN_POSITIVE))
 }
 
-/// Density of aimed emission from `p` along `w`, the probability of the light included.
-fn emission_density(scene: &Scene, light: LightId, p: Vec3, ng: Vec3, w: Vec3) -> f64 {
-    let (pdf_a, pdf_w) = scene.light(light).pdf_le_toward(scene.targets(), p, ng, w);
+/// Density of aimed emission from `start` along `w`, the probability of the light included.
+fn emission_density(scene: &Scene, light: LightId, start: &LightHit, w: Vec3) -> f64 {
+    let (pdf_a, pdf_w) = scene.light(light).pdf_le_toward(scene.targets(), start, w);
     f64::from(scene.caustic_picker().pmf(light.0 as usize)) * f64::from(pdf_a) * f64::from(pdf_w)
 }
 

@@ -68,7 +68,7 @@ pub fn connect_light(scene: &Scene, eye: &PathVertex, eta: f64, sampler: &mut Sa
         return None;
     }
     let light = LightId(index as u32);
-    let li = scene.light(light).sample_li(vertex.hit.p, vertex.hit.ng, u_pick, u)?;
+    let li = scene.sample_li(light, vertex.hit.p, vertex.hit.ng, u_pick, u)?;
     let f = vertex.bsdf.eval(vertex.wo, li.wi, TransportMode::Radiance);
     if f.is_zero() || li.radiance.is_zero() {
         return None;
@@ -99,7 +99,7 @@ pub fn connect_light(scene: &Scene, eye: &PathVertex, eta: f64, sampler: &mut Sa
 pub fn emission_against_all(scene: &Scene, end: &EyeEnd, vertex: &Vertex, eta: f64) -> Option<Emission> {
     let light = vertex.hit.light?;
     let hit = LightHit { p: vertex.hit.p, ng: vertex.hit.authored_ng(), prim: vertex.hit.prim };
-    let radiance = scene.light(light).emitted(hit.ng, vertex.wo);
+    let radiance = scene.emitted(light, &hit, vertex.wo);
     let weight = weight_of(scene, light, end, Some(hit), eta);
     (!radiance.is_zero()).then_some(Emission { light, radiance, weight })
 }

@@ -98,7 +98,7 @@ fn direct_weighted(
         return None;
     }
     let light = LightId(index as u32);
-    let li = scene.light(light).sample_li(vertex.hit.p, vertex.hit.ng, u_pick, u)?;
+    let li = scene.sample_li(light, vertex.hit.p, vertex.hit.ng, u_pick, u)?;
     let f = vertex.bsdf.eval(vertex.wo, li.wi, TransportMode::Radiance);
     if f.is_zero() || li.radiance.is_zero() {
         return None;
@@ -149,7 +149,7 @@ fn emission_of(
     last: Option<Scattered>,
     wo: Vec3,
 ) -> Option<Emission> {
-    let radiance = scene.light(light).emitted(hit.ng, wo);
+    let radiance = scene.emitted(light, &hit, wo);
     let (own, other) = densities(scene, last, light, -wo, Some(hit));
     (!radiance.is_zero()).then_some(Emission { light, radiance, weight: power_heuristic(own, other) })
 }
@@ -175,7 +175,7 @@ pub fn emission_in_chain(walk: &Walk<'_>, vertex: &Vertex, chain: &EyeChain) -> 
         return emission_at(walk, vertex);
     }
     let hit = light_hit(vertex);
-    let radiance = walk.scene().light(light).emitted(hit.ng, vertex.wo);
+    let radiance = walk.scene().emitted(light, &hit, vertex.wo);
     (!radiance.is_zero()).then(|| {
         let merge = chain.merge_over_emission(walk, light, Some(hit));
         Emission { light, radiance, weight: against_both(walk, light, Some(hit), merge) }

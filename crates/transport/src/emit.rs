@@ -2,7 +2,7 @@ use bsdf::TransportMode;
 use color::Lanes;
 use math::{Ray, offset_ray_origin};
 use sampling::Sampler;
-use scene::light::LeSample;
+use scene::light::{LeSample, LightHit};
 use scene::{LightId, Scene};
 
 use crate::{LightStart, Walk};
@@ -28,7 +28,7 @@ pub fn emit<'s>(scene: &'s Scene, sampler: &mut Sampler) -> Option<EmittedPhoton
         return None;
     }
     let id = LightId(index as u32);
-    let le = scene.light(id).sample_le(u_pick, u_pos, u_dir)?;
+    let le = scene.sample_le(id, u_pick, u_pos, u_dir)?;
     start(scene, id, &le, pmf * le.pdf_a * le.pdf_w)
 }
 
@@ -51,7 +51,7 @@ pub fn emit_toward_targets_with<'s>(
         return None;
     }
     let light = LightId(index as u32);
-    let le = scene.light(light).sample_le_toward(scene.targets(), u_pick, u_pos, u_dir)?;
+    let le = scene.sample_le_toward(light, u_pick, u_pos, u_dir)?;
     let emitted = start(scene, light, &le, pmf * le.pdf_a * le.pdf_w)?;
     Some((emitted, LightStart { light, pmf, le }))
 }
@@ -68,20 +68,21 @@ pub fn emit_mixed<'s>(scene: &'s Scene, aimed: f32, sampler: &mut Sampler) -> Op
     if pmf == 0.0 {
         return None;
     }
-    let (id, targets) = (LightId(index as u32), scene.targets());
+    let id = LightId(index as u32);
     let light = scene.light(id);
     let le = if toward {
-        light.sample_le_toward(targets, u_pick, u_pos, u_dir)
+        scene.sample_le_toward(id, u_pick, u_pos, u_dir)
     } else {
-        light.sample_le(u_pick, u_pos, u_dir)
+        scene.sample_le(id, u_pick, u_pos, u_dir)
     }?;
     // The sample's normal lies on the side of its direction: of a light whose front does not shine there, the back.
-    let front = if light.emitted(le.n, le.w).is_zero() { -le.n } else { le.n };
+    let ng = if light.emitted(le.n, le.w).is_zero() { -le.n } else { le.n };
+    let start_at = LightHit { p: le.p, ng, prim: le.prim };
     let own = pmf * le.pdf_a * le.pdf_w;
     let (other_pmf, (other_a, other_w)) = if toward {
-        (scene.global_picker().pmf(index), light.pdf_le(le.p, front, le.w))
+        (scene.global_picker().pmf(index), light.pdf_le(&start_at, le.w))
     } else {
-        (scene.caustic_picker().pmf(index), light.pdf_le_toward(targets, le.p, front, le.w))
+        (scene.caustic_picker().pmf(index), light.pdf_le_toward(scene.targets(), &start_at, le.w))
     };
     let other = other_pmf * other_a * other_w;
     let density =

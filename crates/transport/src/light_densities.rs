@@ -43,7 +43,7 @@ impl LightDensities {
         let light = scene.light(id);
         let w = -li.wi;
         let ng = front(scene, id, li.n, w);
-        let (pdf_a, pdf_w) = light.pdf_le(li.p, ng, w);
+        let (pdf_a, pdf_w) = light.pdf_le(&LightHit { p: li.p, ng, prim: li.prim }, w);
         let emitted = emission_pmf(scene, id) * f64::from(pdf_a) * f64::from(pdf_w);
         let pmf = f64::from(pmf);
         if li.is_delta {
@@ -58,8 +58,8 @@ impl LightDensities {
     pub fn of_end(scene: &Scene, id: LightId, end: &EyeEnd, hit: Option<LightHit>) -> Self {
         let light = scene.light(id);
         let wi = end.direction;
-        let (p, ng) = hit.map_or((end.from, Vec3::ZERO), |hit| (hit.p, hit.ng));
-        let (pdf_a, pdf_w) = light.pdf_le(p, ng, -wi);
+        let start = hit.unwrap_or(LightHit { p: end.from, ng: Vec3::ZERO, prim: 0 });
+        let (pdf_a, pdf_w) = light.pdf_le(&start, -wi);
         let cos = hit.map_or(1.0, |hit| f64::from(hit.ng.dot(wi).abs()));
         let pmf = f64::from(scene.direct_picker().pmf(id.0 as usize));
         Self {

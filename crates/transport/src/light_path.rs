@@ -133,7 +133,7 @@ fn start<'s>(
         return None;
     }
     let id = LightId(index as u32);
-    let le = scene.light(id).sample_le(u_pick, u_pos, u_dir)?;
+    let le = scene.sample_le(id, u_pick, u_pos, u_dir)?;
     let flux = le.radiance * (le.cos / (pmf * le.pdf_a * le.pdf_w));
     if flux.is_zero() {
         return None;

@@ -16,7 +16,7 @@ use scene::camera::WePdf;
 use scene::{LightId, Scene};
 use scenefile::SceneDesc;
 use scenefile::desc::{
-    Camera, CameraKind, Emission, Light, LightKind, Material, Object, PointAmount, Shape, SkyMapping,
+    Camera, CameraKind, Emission, Light, LightKind, Material, Object, PointAmount, Shape, SkyMapping, Texture,
 };
 
 use explicit::{Explicit, FullPath, LightPoint, Node, ratio, survival};
@@ -64,6 +64,7 @@ fn room(lens: CameraKind, lamp: Option<Object>, light: Option<LightKind>) -> Sce
         ..SceneDesc::default()
     };
     desc.film.size = [32, 24];
+    desc.textures.insert("pattern".into(), Texture::checker([3.0, 1.0, 0.5], 0.2, [3.0; 2]).into());
     scene::compile(&desc).unwrap().0
 }
 
@@ -97,7 +98,7 @@ fn walk(
 fn light_subpath<'s>(scene: &'s Scene, sampler: &mut Sampler) -> Option<(LightPoint, Subpath<'s>)> {
     let (index, pmf, u_pick) = scene.global_picker().sample(sampler.next_1d());
     let id = LightId(index as u32);
-    let le = scene.light(id).sample_le(u_pick, sampler.next_2d(), sampler.next_2d())?;
+    let le = scene.sample_le(id, u_pick, sampler.next_2d(), sampler.next_2d())?;
     assert!(pmf > 0.0);
     let ray = Ray::new(offset_ray_origin(le.p, le.p_error, le.n, le.w), le.w);
     let walk = Walk::new(scene, TransportMode::Importance, ray, Lanes::ONE, scene.light_medium(id));
@@ -384,6 +385,10 @@ fn scenes() -> Vec<(&'static str, Scene)> {
     let all_around = CameraKind::Spherical { mapping: SkyMapping::LatLong };
     let glow =
         |shape, two_sided| Some(Object::lamp(shape, Emission { two_sided, ..Emission::radiance([3.0; 3]) }));
+    let glow_by = |texture: &str, shape| {
+        let texture = Some(texture.to_owned().into());
+        Some(Object::lamp(shape, Emission { texture, ..Emission::radiance([3.0; 3]) }))
+    };
     let disk = Shape::Disk { center: [0.0, 2.8, 0.5], normal: [0.0, -1.0, 0.0], radius: 0.6 };
     let globe = Shape::Sphere { center: [0.3, 2.2, 0.6], radius: 0.3 };
     let quad = Shape::Quad { origin: [-0.5, 2.5, 0.0], edge_u: [1.0, 0.0, 0.0], edge_v: [0.0, 0.2, 1.0] };
@@ -402,9 +407,12 @@ fn scenes() -> Vec<(&'static str, Scene)> {
         ("disk", room(pinhole, glow(disk.clone(), false), None)),
         ("disk, thin lens", room(lens, glow(disk.clone(), false), None)),
         ("disk, parallel rays", room(parallel, glow(disk.clone(), false), None)),
-        ("disk, all directions", room(all_around, glow(disk, false), None)),
-        ("sphere", room(pinhole, glow(globe, false), None)),
-        ("two-sided quad", room(pinhole, glow(quad, true), None)),
+        ("disk, all directions", room(all_around, glow(disk.clone(), false), None)),
+        ("sphere", room(pinhole, glow(globe.clone(), false), None)),
+        ("two-sided quad", room(pinhole, glow(quad.clone(), true), None)),
+        ("textured quad", room(pinhole, glow_by("pattern", quad), None)),
+        ("textured disk", room(pinhole, glow_by("pattern", disk.clone()), None)),
+        ("textured sphere", room(pinhole, glow_by("pattern", globe.clone()), None)),
         ("point", room(pinhole, None, Some(point))),
         ("spot", room(pinhole, None, Some(spot))),
         ("sun", room(pinhole, None, Some(sun))),

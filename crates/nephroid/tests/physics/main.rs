@@ -26,6 +26,7 @@ mod replay;
 mod sky;
 mod sppm;
 mod support;
+mod textured_lamps;
 mod traps;
 mod vcm;
 mod window;

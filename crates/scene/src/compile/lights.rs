@@ -17,6 +17,24 @@ fn lanes([r, g, b]: [f32; 3]) -> Lanes {
     Lanes::rgb(r, g, b)
 }
 
+/// The light that a solid with a texture is; `factor`: of (point, triangle), averaged over about a width. `Ok(None)`: it is black.
+pub(super) fn textured_light(
+    solid: &Solid,
+    emission: &Emission,
+    factor: impl Fn(Vec3, u32, f32) -> Lanes,
+) -> Result<Option<Light>, &'static str> {
+    let light = area_light(solid, emission).ok_or("this object shines but has no area")?;
+    let light = light.textured(factor);
+    match (light, emission.amount) {
+        (light, EmissionAmount::Radiance(_)) => Ok(light),
+        (None, EmissionAmount::Power { .. }) => Err("this object has a power, but a black texture"),
+        (Some(mut light), EmissionAmount::Power { watts, .. }) => {
+            light.scale_radiance(watts / light.power().mean());
+            if light.power().is_finite() { Ok(Some(light)) } else { Err("this object's power is too great") }
+        }
+    }
+}
+
 /// The light that a solid is. `None`: it has no area.
 pub(super) fn area_light(solid: &Solid, emission: &Emission) -> Option<Light> {
     let sides = if emission.two_sided { Sides::Both } else { Sides::Front };

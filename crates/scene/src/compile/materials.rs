@@ -351,6 +351,16 @@ impl<'d> Library<'d> {
         }
     }
 
+    /// A texture, as factor on emission.
+    pub fn emission(&mut self, name: &'d Sourced<String>) -> Option<u32> {
+        self.texture(name, false)
+    }
+
+    /// Those that were read up to now.
+    pub fn textures(&self) -> &[Texture] {
+        &self.textures
+    }
+
     /// The texture of a name, read at first use; as normals it is read without decoding.
     fn texture(&mut self, name: &'d Sourced<String>, as_normals: bool) -> Option<u32> {
         let key = (name.as_str(), as_normals);

@@ -10,13 +10,14 @@ use std::sync::Arc;
 use accel::{Bvh, Geometry};
 use math::{Bounds3, Transform, Vec2, Vec3};
 use scenefile::desc::{
-    Camera as CameraDesc, CameraKind, FovAxis, LightKind, MaterialRef, Object as ObjectDesc, SceneDesc,
+    Camera as CameraDesc, CameraKind, Emission, FovAxis, LightKind, MaterialRef, Object as ObjectDesc,
+    SceneDesc,
 };
 use scenefile::{Diagnostic, Sourced, Span};
 
 use crate::camera::{CameraError, Fov, Lens, Side};
 use crate::light::LightPicker;
-use crate::scene::{CameraMedia, Group, Outer, media_at};
+use crate::scene::{CameraMedia, Group, LightTexture, Outer, light_factor, media_at};
 use crate::{
     Camera, Light, LightId, Material, MaterialId, MaterialKind, MediumStack, Object, Scene, Shape, Target,
     Targets,
@@ -36,10 +37,10 @@ pub fn compile(desc: &SceneDesc) -> Result<(Scene, Vec<Diagnostic>), Vec<Diagnos
 }
 
 /// A placed solid, its material and its light.
-struct Placed {
+struct Placed<'d> {
     solid: Solid,
     material: MaterialId,
-    emission: Option<Sourced<scenefile::desc::Emission>>,
+    emission: Option<&'d Sourced<Emission>>,
     name: String,
     light_group: Option<String>,
     span: Option<Span>,
@@ -52,6 +53,7 @@ struct Compiler<'d> {
     lights: Vec<Light>,
     light_names: Vec<String>,
     light_groups: Vec<u32>,
+    light_textures: Vec<Option<LightTexture>>,
     group_names: Vec<String>,
     /// A point on or at each light, from which the media around it are found.
     light_points: Vec<Option<Vec3>>,
@@ -73,6 +75,7 @@ impl<'d> Compiler<'d> {
             lights: Vec::new(),
             light_names: Vec::new(),
             light_groups: Vec::new(),
+            light_textures: Vec::new(),
             group_names: Vec::new(),
             light_points: Vec::new(),
             targets: Vec::new(),
@@ -109,7 +112,7 @@ impl<'d> Compiler<'d> {
     }
 
     /// Builds the solids of a list of objects, in parallel; what cannot be built is reported.
-    fn place(&mut self, objects: &'d [Sourced<ObjectDesc>], instance: Option<&Transform>) -> Vec<Placed> {
+    fn place(&mut self, objects: &'d [Sourced<ObjectDesc>], instance: Option<&Transform>) -> Vec<Placed<'d>> {
         let materials: Vec<MaterialId> = objects.iter().map(|o| self.material_of(o)).collect();
         let desc = self.desc;
         let solids = par::map(objects.len(), |i| {
@@ -125,7 +128,7 @@ impl<'d> Compiler<'d> {
                 Ok(solid) => placed.push(Placed {
                     solid,
                     material,
-                    emission: object.emission.clone(),
+                    emission: object.emission.as_ref(),
                     name: object.name.clone().unwrap_or_default(),
                     light_group: object.light_group.clone().or_else(|| object.name.clone()),
                     span: object.span,
@@ -143,26 +146,54 @@ impl<'d> Compiler<'d> {
         }
     }
 
-    fn add_object(&mut self, placed: Placed) {
+    fn add_object(&mut self, placed: Placed<'d>) {
         self.bounds = self.bounds.union(placed.solid.bounds());
-        let light =
-            placed.emission.as_ref().and_then(|emission| match lights::area_light(&placed.solid, emission) {
-                Some(light) => {
-                    let group = placed.light_group.as_deref();
-                    Some(self.push_light(light, placed.name.clone(), group, Some(placed.solid.a_point())))
-                }
-                None => {
-                    self.diagnostics.push(
-                        Diagnostic::error("no-area", "this object shines but has no area")
-                            .at(emission.span.or(placed.span)),
-                    );
-                    None
-                }
-            });
+        let light = placed.emission.and_then(|emission| self.lamp(&placed, emission));
         self.aim_at(placed.material, &placed.solid, None);
-        let object = self.object(placed.solid, placed.material, light, true);
+        let mut solid = placed.solid;
+        let textured = light.is_some_and(|id| self.light_textures[id.0 as usize].is_some());
+        if let Solid::Mesh(mesh) = &mut solid
+            && !textured
+            && self.library.needs_no_uv(placed.material)
+        {
+            mesh.uvs = Vec::new();
+        }
+        let object = self.object(solid, placed.material, light, true);
         self.outer.push(Outer::Object(object));
         self.outer_names.push(placed.name);
+    }
+
+    /// The light of an object that is about to be added to the outer geometry; what is wrong with it is reported.
+    fn lamp(&mut self, placed: &Placed<'d>, emission: &'d Sourced<Emission>) -> Option<LightId> {
+        let built = match &emission.texture {
+            None => lights::area_light(&placed.solid, emission)
+                .map(|light| Some((light, None)))
+                .ok_or("this object shines but has no area"),
+            Some(name) => {
+                let texture = self.library.emission(name)?;
+                let shape = placed.solid.shape();
+                let object = Object { shape, material: placed.material, light: None };
+                let textures = self.library.textures();
+                let factor = |p, prim, width| light_factor(textures, texture, &object, p, prim, width);
+                let texture = LightTexture { texture, object: self.outer.len() as u32 };
+                lights::textured_light(&placed.solid, emission, factor)
+                    .map(|light| light.map(|light| (light, Some(texture))))
+            }
+        };
+        match built {
+            Ok(light) => {
+                let (light, texture) = light?;
+                let group = placed.light_group.as_deref();
+                let id = self.push_light(light, placed.name.clone(), group, Some(placed.solid.a_point()));
+                self.light_textures[id.0 as usize] = texture;
+                Some(id)
+            }
+            Err(reason) => {
+                let error = Diagnostic::error("no-area", reason).at(emission.span.or(placed.span));
+                self.diagnostics.push(error);
+                None
+            }
+        }
     }
 
     /// Makes caustic photons aim at a solid, if it is specular.
@@ -180,11 +211,7 @@ impl<'d> Compiler<'d> {
     /// Adds a solid to the outer geometry (`outer`) or leaves that to the caller, and keeps what hits need.
     fn object(&mut self, solid: Solid, material: MaterialId, light: Option<LightId>, outer: bool) -> Object {
         let shape = match solid {
-            Solid::Mesh(mut mesh) => {
-                // In a group an instance may bring a material that wants them.
-                if outer && self.library.needs_no_uv(material) {
-                    mesh.uvs = Vec::new();
-                }
+            Solid::Mesh(mesh) => {
                 self.triangles += mesh.indices.len() as u64;
                 self.mesh_bytes += (size_of_val(&mesh.positions[..])
                     + size_of_val(&mesh.normals[..])
@@ -237,7 +264,7 @@ impl<'d> Compiler<'d> {
             };
             let id = *ids.entry(instance.group.as_str()).or_insert_with(|| {
                 let placed = self.place(&group.objects, None);
-                let still: Vec<Placed> = placed.into_iter().filter(|p| p.emission.is_none()).collect();
+                let still: Vec<Placed<'_>> = placed.into_iter().filter(|p| p.emission.is_none()).collect();
                 solids.push(still.iter().map(|p| p.solid.clone()).collect());
                 groups.push(self.group(still));
                 (groups.len() - 1) as u32
@@ -265,7 +292,7 @@ impl<'d> Compiler<'d> {
         groups
     }
 
-    fn group(&mut self, placed: Vec<Placed>) -> Group {
+    fn group(&mut self, placed: Vec<Placed<'_>>) -> Group {
         let mut geometry = Geometry::default();
         let objects = placed
             .into_iter()
@@ -326,6 +353,7 @@ impl<'d> Compiler<'d> {
         self.lights.push(light);
         self.light_names.push(name);
         self.light_points.push(point);
+        self.light_textures.push(None);
         LightId((self.lights.len() - 1) as u32)
     }
 
@@ -378,6 +406,7 @@ impl<'d> Compiler<'d> {
             lights: self.lights,
             light_names: self.light_names,
             light_groups: self.light_groups,
+            light_textures: self.light_textures,
             group_names: self.group_names,
             targets,
             camera,

@@ -1,9 +1,11 @@
+use std::sync::Arc;
+
 use math::{Affine3A, Bounds3, Frame, Mat4, PI, Quat, Transform, Vec2, Vec3};
 use mesh::{MeshError, TriangleMesh, shapes};
 use scenefile::desc::{self, Normals, SceneDesc, Shape as ShapeDesc, TeapotPart, TransformStep};
 use scenefile::{Diagnostic, Sourced, Span};
 
-use crate::Target;
+use crate::{Shape, Target};
 
 /// A shape where it stands, before it becomes an object.
 #[derive(Clone, Debug)]
@@ -183,6 +185,15 @@ impl Solid {
                 let half = (Vec3::ONE - *normal * *normal).max(Vec3::ZERO).map(f32::sqrt) * *radius;
                 Bounds3 { min: *center - half, max: *center + half }
             }
+        }
+    }
+
+    /// A copy as the shape of an object.
+    pub fn shape(&self) -> Shape {
+        match *self {
+            Self::Mesh(ref mesh) => Shape::Mesh(Arc::new(mesh.clone())),
+            Self::Sphere { center, radius, flipped } => Shape::Sphere { center, radius, flipped },
+            Self::Disk { center, normal, radius } => Shape::Disk { center, normal, radius },
         }
     }
 

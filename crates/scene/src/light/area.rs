@@ -102,6 +102,7 @@ impl AreaEmission {
             p: origin.p,
             p_error: origin.p_error,
             n,
+            prim: origin.prim,
         })
     }
 

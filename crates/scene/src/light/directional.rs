@@ -109,6 +109,7 @@ impl DirectionalLight {
             p: p + wi * (2.0 * self.scene.radius),
             p_error: 0.0,
             n: Vec3::ZERO,
+            prim: 0,
         })
     }
 

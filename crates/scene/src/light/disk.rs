@@ -3,15 +3,17 @@ use math::{Bounds3, Frame, PI, Vec3};
 use sampling::warp;
 
 use super::emission::{Origin, error_about};
-use super::{AreaEmission, LiSample, Sides};
+use super::pattern::Pattern;
+use super::{AreaEmission, LiSample, LightHit, Sides};
 
 /// A flat disc.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct DiskLight {
     center: Vec3,
     frame: Frame,
     radius: f32,
     surface: AreaEmission,
+    pattern: Option<Box<Pattern>>,
 }
 
 impl DiskLight {
@@ -26,12 +28,39 @@ impl DiskLight {
             frame: Frame::from_z(normal),
             radius,
             surface: AreaEmission { radiance, sides },
+            pattern: None,
         })
     }
 
-    /// Emission.
+    /// The same with a factor on the radiance that depends on the point: of (point, 0), averaged over about a width.
+    pub(super) fn textured(self, factor: impl Fn(Vec3, u32, f32) -> Lanes) -> Option<Self> {
+        let at = |prim: u32, u, width| factor(self.origin_at(u, 0.0).p, prim, width);
+        let pattern = Some(Box::new(Pattern::new(&[f64::from(self.area())], at)?));
+        Some(Self { pattern, ..self })
+    }
+
+    /// Emission, without what a texture makes of it.
     pub fn surface(&self) -> &AreaEmission {
         &self.surface
+    }
+
+    pub(super) fn surface_mut(&mut self) -> &mut AreaEmission {
+        &mut self.surface
+    }
+
+    pub(super) fn pattern(&self) -> Option<&Pattern> {
+        self.pattern.as_deref()
+    }
+
+    /// Density of points per area.
+    pub(super) fn pdf_a(&self, p: Vec3) -> f32 {
+        match &self.pattern {
+            None => 1.0 / self.area(),
+            Some(pattern) => {
+                let d = self.frame.to_local(p - self.center) / self.radius;
+                pattern.pdf_a(0, warp::disk_inverse(math::Vec2::new(d.x, d.y)))
+            }
+        }
     }
 
     /// Centre.
@@ -56,14 +85,31 @@ impl DiskLight {
         Bounds3 { min: self.center - reach, max: self.center + reach }
     }
 
-    pub(super) fn origin(&self, u: [f32; 2]) -> Origin {
+    pub(super) fn origin(&self, u_pick: f32, u: [f32; 2]) -> Origin {
+        match &self.pattern {
+            None => self.origin_at(u, 1.0 / self.area()),
+            Some(pattern) => {
+                let s = pattern.sample(u_pick, u);
+                self.origin_at(s.u, s.pdf_a)
+            }
+        }
+    }
+
+    fn origin_at(&self, u: [f32; 2], pdf_a: f32) -> Origin {
         let d = warp::disk(u) * self.radius;
         let (x, y) = (self.frame.x * d.x, self.frame.y * d.y);
         let p_error = error_about(self.center, x.abs() + y.abs());
-        Origin { p: self.center + x + y, p_error, ng: self.frame.z, pdf_a: 1.0 / self.area(), prim: 0 }
+        Origin { p: self.center + x + y, p_error, ng: self.frame.z, pdf_a, prim: 0 }
     }
 
-    pub(super) fn sample_li(&self, p: Vec3, u: [f32; 2]) -> Option<LiSample> {
-        self.surface.li_from_area(self.area(), p, &self.origin(u))
+    pub(super) fn sample_li(&self, p: Vec3, u_pick: f32, u: [f32; 2]) -> Option<LiSample> {
+        let origin = self.origin(u_pick, u);
+        let area = if self.pattern.is_some() { 1.0 / origin.pdf_a } else { self.area() };
+        self.surface.li_from_area(area, p, &origin)
+    }
+
+    pub(super) fn pdf_li_w(&self, receiver: Vec3, wi: Vec3, hit: LightHit) -> f32 {
+        let area = if self.pattern.is_some() { 1.0 / self.pdf_a(hit.p) } else { self.area() };
+        self.surface.pdf_li_w(area, receiver, wi, hit)
     }
 }

@@ -12,6 +12,7 @@ mod directional;
 mod disk;
 mod emission;
 mod environment;
+mod pattern;
 mod picker;
 mod point;
 mod sky;
@@ -28,6 +29,7 @@ pub use directional::DirectionalLight;
 pub use disk::DiskLight;
 use emission::{Emission, Origin};
 pub use environment::EnvironmentLight;
+use pattern::Pattern;
 pub use picker::LightPicker;
 pub use point::PointLight;
 pub use sky::SkyLight;
@@ -75,6 +77,8 @@ pub struct LiSample {
     pub p_error: f32,
     /// Unit normal of the light at `p` on the side of the receiver; zero where there is none.
     pub n: Vec3,
+    /// Triangle index for [`Light::Triangles`], else 0.
+    pub prim: u32,
 }
 
 /// The start of a light path.
@@ -115,27 +119,28 @@ impl Light {
     /// A direction from the receiver `p` to the light. `None`: no light comes from the drawn point.
     ///
     /// `_n` is the receiver's normal or zero; no variant shapes its density by it, so that [`Self::pdf_li_w`] needs
-    /// none. `u_pick` chooses among triangles; `u` the point or direction.
+    /// none. `u_pick` chooses among triangles and cells of a texture; `u` the point or direction. Radiance is without what a
+    /// texture makes of it: [`Scene::sample_li`](crate::Scene::sample_li) has that.
     #[inline]
     pub fn sample_li(&self, p: Vec3, _n: Vec3, u_pick: f32, u: [f32; 2]) -> Option<LiSample> {
         match self {
             Self::Triangles(l) => l.sample_li(p, u_pick, u),
-            _ => self.sample_li_elsewhere(p, u),
+            _ => self.sample_li_elsewhere(p, u_pick, u),
         }
     }
 
     /// [`Self::sample_li`] for all but triangles: out of the way of loops over paths.
     #[inline(never)]
-    fn sample_li_elsewhere(&self, p: Vec3, u: [f32; 2]) -> Option<LiSample> {
+    fn sample_li_elsewhere(&self, p: Vec3, u_pick: f32, u: [f32; 2]) -> Option<LiSample> {
         match self {
             Self::Point(l) => l.sample_li(p),
             Self::Spot(l) => l.sample_li(p),
             Self::Directional(l) => l.sample_li(p),
             Self::Environment(l) => l.sample_li(p, u),
             Self::Sky(l) => l.sample_li(p, u),
-            Self::Sphere(l) => l.sample_li(p, u),
-            Self::Disk(l) => l.sample_li(p, u),
-            Self::Triangles(l) => l.sample_li(p, 0.0, u),
+            Self::Sphere(l) => l.sample_li(p, u_pick, u),
+            Self::Disk(l) => l.sample_li(p, u_pick, u),
+            Self::Triangles(l) => l.sample_li(p, u_pick, u),
         }
     }
 
@@ -147,14 +152,15 @@ impl Light {
             (Self::Environment(l), None) => l.pdf_li_w(),
             (Self::Sky(l), None) => l.pdf_w(wi),
             (Self::Sphere(l), Some(hit)) => l.pdf_li_w(p, wi, hit),
-            (Self::Disk(l), Some(hit)) => l.surface().pdf_li_w(l.area(), p, wi, hit),
-            (Self::Triangles(l), Some(hit)) => l.surface().pdf_li_w(l.area(), p, wi, hit),
+            (Self::Disk(l), Some(hit)) => l.pdf_li_w(p, wi, hit),
+            (Self::Triangles(l), Some(hit)) => l.pdf_li_w(p, wi, hit),
             _ => 0.0,
         }
     }
 
     /// Radiance of an area light that leaves along `w` (unit) where the geometric normal of the front side is
-    /// `ng`. Zero for lights without a surface.
+    /// `ng`, without what a texture makes of it ([`Scene::emitted`](crate::Scene::emitted) has that). Zero for lights without
+    /// a surface.
     pub fn emitted(&self, ng: Vec3, w: Vec3) -> Lanes {
         match self {
             Self::Sphere(l) => l.surface().emitted(ng, w),
@@ -193,13 +199,14 @@ impl Light {
     }
 
     /// Densities (per area, per steradian) with which [`Self::sample_le`] starts at `p` along `w`; 1 where delta.
-    /// `ng` is the geometric normal of the front side of an area light, else unused.
-    pub fn pdf_le(&self, p: Vec3, ng: Vec3, w: Vec3) -> (f32, f32) {
+    /// Normal and triangle are those of an area light, else unused.
+    pub fn pdf_le(&self, start: &LightHit, w: Vec3) -> (f32, f32) {
+        let LightHit { p, ng, .. } = *start;
         match self {
             Self::Directional(l) => (l.pdf_le_a(p), 1.0),
             Self::Environment(l) => (l.pdf_le_a(p, w), l.pdf_li_w()),
             Self::Sky(l) => (l.pdf_le_a(p, w), l.pdf_w(-w)),
-            _ => (self.origin_pdf_a(), self.emission(ng).map_or(0.0, |e| e.pdf_w(w))),
+            _ => (self.origin_pdf_a(start), self.emission(ng).map_or(0.0, |e| e.pdf_w(w))),
         }
     }
 
@@ -228,14 +235,15 @@ impl Light {
     }
 
     /// Densities with which [`Self::sample_le_toward`] starts at `p` along `w`, as in [`Self::pdf_le`].
-    pub fn pdf_le_toward(&self, targets: &Targets, p: Vec3, ng: Vec3, w: Vec3) -> (f32, f32) {
+    pub fn pdf_le_toward(&self, targets: &Targets, start: &LightHit, w: Vec3) -> (f32, f32) {
+        let LightHit { p, ng, .. } = *start;
         match self {
             Self::Directional(l) => (targets.shadow_pdf_a(p, l.direction(), None), 1.0),
             Self::Environment(l) => (targets.shadow_pdf_a(p, w, None), l.pdf_li_w()),
             Self::Sky(l) => (targets.shadow_pdf_a(p, w, None), l.pdf_w(-w)),
             _ => {
                 let pdf_w = self.emission(ng).map_or(0.0, |e| aim::pdf_w(targets, p, &e, w));
-                (self.origin_pdf_a(), pdf_w)
+                (self.origin_pdf_a(start), pdf_w)
             }
         }
     }
@@ -249,10 +257,64 @@ impl Light {
             Self::Directional(l) => l.power(),
             Self::Environment(l) => l.power(),
             Self::Sky(l) => l.power(),
-            Self::Sphere(l) => l.surface().power(l.area()),
-            Self::Disk(l) => l.surface().power(l.area()),
-            Self::Triangles(l) => l.surface().power(l.area()),
+            Self::Sphere(l) => l.surface().power(l.area()) * self.mean_factor(),
+            Self::Disk(l) => l.surface().power(l.area()) * self.mean_factor(),
+            Self::Triangles(l) => l.surface().power(l.area()) * self.mean_factor(),
         }
+    }
+
+    /// The light with a factor on its radiance over the surface: of (point, triangle), averaged over about a width in units of
+    /// length. Points are then drawn in proportion to the luminance of the factor; who asks for samples multiplies by it.
+    /// `None`: it is black. Lights without a surface stay as they are.
+    pub fn textured(self, factor: impl Fn(Vec3, u32, f32) -> Lanes) -> Option<Self> {
+        match self {
+            Self::Sphere(l) => l.textured(factor).map(Self::Sphere),
+            Self::Disk(l) => l.textured(factor).map(Self::Disk),
+            Self::Triangles(l) => l.textured(factor).map(Self::Triangles),
+            _ => Some(self),
+        }
+    }
+
+    /// Multiplies the radiance of an area light; others stay as they are.
+    pub fn scale_radiance(&mut self, factor: f32) {
+        match self {
+            Self::Sphere(l) => l.surface_mut().radiance *= factor,
+            Self::Disk(l) => l.surface_mut().radiance *= factor,
+            Self::Triangles(l) => l.surface_mut().radiance *= factor,
+            _ => {}
+        }
+    }
+
+    /// Whether the radiance varies over its surface.
+    #[inline]
+    pub fn is_textured(&self) -> bool {
+        self.pattern().is_some()
+    }
+
+    #[inline]
+    fn pattern(&self) -> Option<&Pattern> {
+        match self {
+            Self::Sphere(l) => l.pattern(),
+            Self::Disk(l) => l.pattern(),
+            Self::Triangles(l) => l.pattern(),
+            _ => None,
+        }
+    }
+
+    /// Mean over the surface of what a texture makes of the radiance.
+    fn mean_factor(&self) -> Lanes {
+        self.pattern().map_or(Lanes::ONE, Pattern::mean)
+    }
+
+    /// About the radiance of a sample, a texture included: as bright as the density of points at it.
+    fn radiance_about(&self, le: &LeSample) -> Lanes {
+        let area = match self {
+            Self::Sphere(l) => l.area(),
+            Self::Disk(l) => l.area(),
+            Self::Triangles(l) => l.area(),
+            _ => return le.radiance,
+        };
+        if self.is_textured() { le.radiance * self.mean_factor() * (le.pdf_a * area) } else { le.radiance }
     }
 
     /// Whether light may fly straight to some target's sphere; `false` only where none can.
@@ -304,24 +366,24 @@ impl Light {
         }
     }
 
-    /// A point of a light that is not at infinity, uniform in area.
+    /// A point of a light that is not at infinity, uniform in area or by the pattern of its texture.
     fn origin(&self, u_pick: f32, u_pos: [f32; 2]) -> Option<Origin> {
         match self {
             Self::Point(l) => Some(Origin::at_point(l.position())),
             Self::Spot(l) => Some(Origin::at_point(l.position())),
             Self::Directional(_) | Self::Environment(_) | Self::Sky(_) => None,
-            Self::Sphere(l) => Some(l.origin(u_pos)),
-            Self::Disk(l) => Some(l.origin(u_pos)),
+            Self::Sphere(l) => Some(l.origin(u_pick, u_pos)),
+            Self::Disk(l) => Some(l.origin(u_pick, u_pos)),
             Self::Triangles(l) => Some(l.origin(u_pick, u_pos)),
         }
     }
 
     /// Density of [`Self::origin`] per area; 1 for points.
-    fn origin_pdf_a(&self) -> f32 {
+    fn origin_pdf_a(&self, at: &LightHit) -> f32 {
         match self {
-            Self::Sphere(l) => 1.0 / l.area(),
-            Self::Disk(l) => 1.0 / l.area(),
-            Self::Triangles(l) => 1.0 / l.area(),
+            Self::Sphere(l) => l.pdf_a(at.p),
+            Self::Disk(l) => l.pdf_a(at.p),
+            Self::Triangles(l) => l.pdf_a(at.p, at.prim),
             _ => 1.0,
         }
     }

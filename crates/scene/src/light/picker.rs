@@ -83,7 +83,8 @@ fn power_toward(light: &Light, targets: &Targets) -> f64 {
     for i in 0..ESTIMATE_SAMPLES {
         let u = kronecker(i);
         if let Some(s) = light.sample_le_toward(targets, u[0], [u[1], u[2]], [u[3], u[4]]) {
-            sum += f64::from(s.radiance.mean() * s.cos) / (f64::from(s.pdf_a) * f64::from(s.pdf_w));
+            sum += f64::from(light.radiance_about(&s).mean() * s.cos)
+                / (f64::from(s.pdf_a) * f64::from(s.pdf_w));
         }
     }
     sum / f64::from(ESTIMATE_SAMPLES)

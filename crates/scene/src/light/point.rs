@@ -52,5 +52,6 @@ pub(super) fn toward_point(p: Vec3, position: Vec3, intensity: impl Fn(Vec3) -> 
         p: position,
         p_error: 0.0,
         n: Vec3::ZERO,
+        prim: 0,
     })
 }

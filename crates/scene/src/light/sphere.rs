@@ -3,14 +3,16 @@ use math::{Bounds3, Frame, PI, Vec3};
 use sampling::warp;
 
 use super::emission::{Origin, error_about};
+use super::pattern::Pattern;
 use super::{AreaEmission, LiSample, LightHit, Sides};
 
 /// A sphere. Its front is the outside.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct SphereLight {
     center: Vec3,
     radius: f32,
     surface: AreaEmission,
+    pattern: Option<Box<Pattern>>,
 }
 
 /// The cone of directions from a receiver to the sphere.
@@ -30,12 +32,36 @@ impl SphereLight {
     pub fn new(center: Vec3, radius: f32, radiance: Lanes, sides: Sides) -> Option<Self> {
         let area = 4.0 * PI * radius * radius;
         let ok = center.is_finite() && radius > 0.0 && area.is_normal() && super::is_emission(radiance);
-        ok.then_some(Self { center, radius, surface: AreaEmission { radiance, sides } })
+        ok.then_some(Self { center, radius, surface: AreaEmission { radiance, sides }, pattern: None })
     }
 
-    /// Emission.
+    /// The same with a factor on the radiance that depends on the point: of (point, 0), averaged over about a width. From outside
+    /// directions are drawn evenly all the same.
+    pub(super) fn textured(self, factor: impl Fn(Vec3, u32, f32) -> Lanes) -> Option<Self> {
+        let at = |prim: u32, u, width| factor(self.origin_at(warp::sphere(u), 0.0).p, prim, width);
+        let pattern = Some(Box::new(Pattern::new(&[f64::from(self.area())], at)?));
+        Some(Self { pattern, ..self })
+    }
+
+    /// Emission, without what a texture makes of it.
     pub fn surface(&self) -> &AreaEmission {
         &self.surface
+    }
+
+    pub(super) fn surface_mut(&mut self) -> &mut AreaEmission {
+        &mut self.surface
+    }
+
+    pub(super) fn pattern(&self) -> Option<&Pattern> {
+        self.pattern.as_deref()
+    }
+
+    /// Density of points per area.
+    pub(super) fn pdf_a(&self, p: Vec3) -> f32 {
+        match &self.pattern {
+            None => 1.0 / self.area(),
+            Some(pattern) => pattern.pdf_a(0, warp::sphere_inverse((p - self.center).normalize_or(Vec3::Z))),
+        }
     }
 
     /// Area of the sphere.
@@ -49,8 +75,14 @@ impl SphereLight {
         Bounds3 { min: self.center - r, max: self.center + r }
     }
 
-    pub(super) fn origin(&self, u: [f32; 2]) -> Origin {
-        self.origin_at(warp::sphere(u), 1.0 / self.area())
+    pub(super) fn origin(&self, u_pick: f32, u: [f32; 2]) -> Origin {
+        match &self.pattern {
+            None => self.origin_at(warp::sphere(u), 1.0 / self.area()),
+            Some(pattern) => {
+                let s = pattern.sample(u_pick, u);
+                self.origin_at(warp::sphere(s.u), s.pdf_a)
+            }
+        }
     }
 
     fn origin_at(&self, ng: Vec3, pdf_a: f32) -> Origin {
@@ -79,9 +111,11 @@ impl SphereLight {
         })
     }
 
-    pub(super) fn sample_li(&self, p: Vec3, u: [f32; 2]) -> Option<LiSample> {
+    pub(super) fn sample_li(&self, p: Vec3, u_pick: f32, u: [f32; 2]) -> Option<LiSample> {
         let Some(cone) = self.cone(p) else {
-            return self.surface.li_from_area(self.area(), p, &self.origin(u));
+            let origin = self.origin(u_pick, u);
+            let area = if self.pattern.is_some() { 1.0 / origin.pdf_a } else { self.area() };
+            return self.surface.li_from_area(area, p, &origin);
         };
         // Uniform in the cone (Pharr, Jakob & Humphreys 2023, §6.2.4), with the polar angles at the receiver (θ)
         // and at the centre (α) in f64: sin α = (sin θ/sin θmax)·…, so that no distance cancels.
@@ -113,6 +147,7 @@ impl SphereLight {
             p: origin.p,
             p_error: origin.p_error,
             n: ng,
+            prim: 0,
         })
     }
 
@@ -121,7 +156,10 @@ impl SphereLight {
             // The far side of a sphere that also shines inward is never drawn from outside.
             Some(_) if hit.ng.dot(wi) >= 0.0 => 0.0,
             Some(cone) => (1.0 / (2.0 * std::f64::consts::PI * cone.one_minus_cos)) as f32,
-            None => self.surface.pdf_li_w(self.area(), p, wi, hit),
+            None => {
+                let area = if self.pattern.is_some() { 1.0 / self.pdf_a(hit.p) } else { self.area() };
+                self.surface.pdf_li_w(area, p, wi, hit)
+            }
         }
     }
 }

@@ -147,6 +147,12 @@ impl Place<'_> {
         }
     }
 
+    /// A factor ≥ 0 on emission.
+    pub fn emission(&self, texture: u32) -> Lanes {
+        let [r, g, b] = self.texture(texture).map(|x| x.max(0.0));
+        Lanes::rgb(r, g, b)
+    }
+
     pub fn float(&self, source: FloatSource) -> f32 {
         match source {
             FloatSource::Constant(x) => x,

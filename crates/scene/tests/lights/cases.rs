@@ -41,6 +41,11 @@ impl Case {
             _ => l.n,
         }
     }
+
+    /// What its pattern makes of the radiance at the start of a path.
+    pub fn factor(&self, l: &LeSample) -> f64 {
+        if self.light.is_textured() { f64::from(stain(l.p)) } else { 1.0 }
+    }
 }
 
 impl Geometry {
@@ -138,6 +143,18 @@ pub fn sky_of(mapping: SkyMapping, size: [usize; 2]) -> SkyLight {
     SkyLight::new(mapping, size, pixels, Transform::new(turn).unwrap()).unwrap()
 }
 
+/// A dark surface with a bright stain.
+pub fn stain(p: Vec3) -> f32 {
+    let d2 = p.distance_squared(Vec3::new(-0.1, 1.6, 0.0));
+    0.1 + 20.0 * (-30.0 * d2).exp()
+}
+
+/// The same with [`stain`] over it.
+pub fn patterned(case: Case, name: &'static str) -> Case {
+    let light = case.light.textured(|p, _, _| Lanes::splat(stain(p))).unwrap();
+    Case { name, light, geometry: case.geometry }
+}
+
 /// One of each, above the targets.
 pub fn cases() -> Vec<Case> {
     let nothing = |name, light| Case { name, light, geometry: Geometry::Nothing };
@@ -156,6 +173,10 @@ pub fn cases() -> Vec<Case> {
         disk(Sides::Both),
         quad(),
         mesh(),
+        patterned(sphere(Vec3::new(0.0, 1.4, 0.0), 0.4, Sides::Front), "patterned sphere"),
+        patterned(disk(Sides::Both), "patterned disk"),
+        patterned(quad(), "patterned quad"),
+        patterned(mesh(), "patterned mesh"),
     ];
     cases.iter_mut().for_each(|c| c.light.preprocess(scene_bounds()));
     cases

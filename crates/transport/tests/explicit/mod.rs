@@ -28,14 +28,15 @@ impl LightPoint {
         Self { id, le: *le, surface: None, drawn: None }
     }
 
-    /// A point `p` with front normal `ng` (zero at infinity and at points) that shines along `w`.
-    fn at(scene: &Scene, id: LightId, p: Vec3, ng: Vec3, w: Vec3) -> Self {
+    /// A point with its front normal (zero at infinity and at points) that shines along `w`.
+    fn at(scene: &Scene, id: LightId, start: &LightHit, w: Vec3) -> Self {
+        let LightHit { p, ng, prim } = *start;
         let light = scene.light(id);
-        let (pdf_a, pdf_w) = light.pdf_le(p, ng, w);
+        let (pdf_a, pdf_w) = light.pdf_le(start, w);
         let area = !light.is_infinite() && !light.is_delta();
         let cos = if area { ng.dot(w).abs() } else { 1.0 };
         let n = if ng.dot(w) < 0.0 { -ng } else { ng };
-        let le = LeSample { p, p_error: 0.0, n, w, radiance: color::Lanes::ONE, cos, pdf_a, pdf_w, prim: 0 };
+        let le = LeSample { p, p_error: 0.0, n, w, radiance: color::Lanes::ONE, cos, pdf_a, pdf_w, prim };
         Self { id, le, surface: None, drawn: None }
     }
 }
@@ -74,15 +75,17 @@ impl FullPath {
             None => scene
                 .environments()
                 .iter()
-                .map(|&id| LightPoint::at(scene, id, last.vertex.hit.p, Vec3::ZERO, w))
+                .map(|&id| {
+                    let start = LightHit { p: last.vertex.hit.p, ng: Vec3::ZERO, prim: 0 };
+                    LightPoint::at(scene, id, &start, w)
+                })
                 .collect(),
             Some(at) => {
                 let hit = &at.vertex.hit;
                 let shines = |id: &LightId| !scene.light(*id).emitted(hit.authored_ng(), w).is_zero();
-                let point = |id| LightPoint {
-                    surface: Some(at.vertex),
-                    ..LightPoint::at(scene, id, hit.p, hit.authored_ng(), w)
-                };
+                let start = LightHit { p: hit.p, ng: hit.authored_ng(), prim: hit.prim };
+                let point =
+                    |id| LightPoint { surface: Some(at.vertex), ..LightPoint::at(scene, id, &start, w) };
                 hit.light.filter(shines).map(point).into_iter().collect()
             }
         };
@@ -103,14 +106,14 @@ impl FullPath {
         let (index, pmf, u_pick) = scene.direct_picker().sample(numbers.next_1d());
         let id = LightId(index as u32);
         let vertex = &at.vertex;
-        let li = scene.light(id).sample_li(vertex.hit.p, vertex.hit.ng, u_pick, numbers.next_2d())?;
+        let li = scene.sample_li(id, vertex.hit.p, vertex.hit.ng, u_pick, numbers.next_2d())?;
         let f = vertex.bsdf.eval(vertex.wo, li.wi, TransportMode::Radiance);
         let unweighted = (f * li.radiance * (vertex.bsdf.abs_cos(li.wi) / (pmf * li.pdf_w))).mean();
         if unweighted == 0.0 {
             return None;
         }
         let front = if scene.light(id).emitted(li.n, -li.wi).is_zero() { -li.n } else { li.n };
-        let mut light = LightPoint::at(scene, id, li.p, front, -li.wi);
+        let mut light = LightPoint::at(scene, id, &LightHit { p: li.p, ng: front, prim: li.prim }, -li.wi);
         light.drawn = Some((sampler, unweighted));
         let upto = with(walked, at);
         // The light's own surface, for emission at the end of the same path.
