@@ -19,10 +19,16 @@ pub(crate) enum Form {
     Ribbon,
 }
 
-/// Parts of each segment along the curve.
+/// Parts of a segment along the curve, at most.
 const STEPS: usize = 8;
+/// A part bends no more than about this, in radians.
+const BEND: f64 = 0.2;
 /// Facets around a tube.
-const SIDES: usize = 8;
+const SIDES: usize = 12;
+/// Facets around one so thin that nobody sees them.
+const FEW_SIDES: usize = 4;
+/// A curve this many times longer than wide is thin.
+const THIN: f64 = 20.0;
 
 /// A mesh of the whole curve; `None` where the number of points fits neither degree nor basis.
 pub(crate) fn tessellate(
@@ -43,13 +49,22 @@ pub(crate) fn tessellate(
         return None;
     }
     let mut mesh = Mesh::default();
-    let total = count * STEPS;
+    let along: Vec<(usize, f64)> = (0..count)
+        .flat_map(|segment| {
+            let steps = steps(&points[segment * stride..][..=degree]);
+            (0..steps).map(move |step| (segment, step as f64 / steps as f64))
+        })
+        .chain([(count - 1, 1.0)])
+        .collect();
+    let total = along.len() - 1;
+    let reach: f64 = points.windows(2).map(|p| length(sub(p[1], p[0]))).sum();
+    let sides = if widths[0].max(widths[1]) * THIN < reach { FEW_SIDES } else { SIDES };
+    // A prism is as wide as the tube in the mean over all sides (Cauchy: the mean width is the perimeter over π).
+    let swell = PI / sides as f64 / (PI / sides as f64).sin();
     let mut across = None;
-    for step in 0..=total {
-        let segment = (step / STEPS).min(count - 1);
-        let u = (step - segment * STEPS) as f64 / STEPS as f64;
+    for &(segment, u) in &along {
         let (p, tangent) = at(&points[segment * stride..][..=degree], u, basis);
-        let whole = step as f64 / total as f64;
+        let whole = (segment as f64 + u) / count as f64;
         let radius = 0.5 * (widths[0] + (widths[1] - widths[0]) * whole);
         let along = unit(tangent).unwrap_or([0.0, 0.0, 1.0]);
         match form {
@@ -69,17 +84,17 @@ pub(crate) fn tessellate(
                     unit(sub(before, times(along, dot(before, along)))).unwrap_or_else(|| any_across(along));
                 across = Some(x);
                 let y = cross(along, x);
-                for side in 0..=SIDES {
-                    let (s, c) = (2.0 * PI * (side % SIDES) as f64 / SIDES as f64).sin_cos();
+                for side in 0..=sides {
+                    let (s, c) = (2.0 * PI * (side % sides) as f64 / sides as f64).sin_cos();
                     let n = add(times(x, c), times(y, s));
-                    mesh.positions.push(narrow(add(p, times(n, radius))));
+                    mesh.positions.push(narrow(add(p, times(n, swell * radius))));
                     mesh.normals.push(narrow(n));
-                    mesh.uvs.push([whole as f32, side as f32 / SIDES as f32]);
+                    mesh.uvs.push([whole as f32, side as f32 / sides as f32]);
                 }
             }
         }
     }
-    let row = if form == Form::Tube { SIDES } else { 1 };
+    let row = if form == Form::Tube { sides } else { 1 };
     for j in 0..total {
         for i in 0..row {
             let a = (j * (row + 1) + i) as u32;
@@ -88,6 +103,13 @@ pub(crate) fn tessellate(
         }
     }
     Some(mesh)
+}
+
+/// Parts of a segment: by how much its control points turn.
+fn steps(points: &[[f64; 3]]) -> usize {
+    let legs: Vec<[f64; 3]> = points.windows(2).filter_map(|p| unit(sub(p[1], p[0]))).collect();
+    let bend: f64 = legs.windows(2).map(|l| dot(l[0], l[1]).clamp(-1.0, 1.0).acos()).sum();
+    ((bend / BEND).ceil() as usize).clamp(1, STEPS)
 }
 
 fn any_across(along: [f64; 3]) -> [f64; 3] {
@@ -135,7 +157,9 @@ mod tests {
         let mesh = tessellate(&points, 3, Basis::Bezier, Form::Tube, [2.0, 1.0], &[]).unwrap();
         for (p, n) in mesh.positions.iter().zip(&mesh.normals) {
             let radius = f64::from(p[0]).hypot(f64::from(p[1]));
-            assert!((radius - (1.0 - f64::from(p[2]) / 6.0)).abs() < 1e-6, "{p:?}");
+            // A prism of 12 sides that is as wide as the tube in the mean.
+            let swell = PI / 12.0 / (PI / 12.0).sin();
+            assert!((radius - swell * (1.0 - f64::from(p[2]) / 6.0)).abs() < 1e-6, "{p:?}");
             assert!(dot(wide(*p), wide(*n)) > 0.0 && n[2].abs() < 1e-6);
         }
         let mut turned = mesh.clone();

@@ -12,6 +12,7 @@ mod matrix;
 mod names;
 mod outsource;
 mod pbrt;
+mod picture;
 mod report;
 mod spectrum;
 mod stage;

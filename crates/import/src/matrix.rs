@@ -14,6 +14,15 @@ impl Matrix {
         Self(std::array::from_fn(|r| std::array::from_fn(|c| m.get(4 * c + r).copied().unwrap_or(0.0))))
     }
 
+    /// A linear map by its rows.
+    pub(crate) const fn rows([x, y, z]: [[f64; 3]; 3]) -> Self {
+        let mut m = Self::IDENTITY;
+        (m.0[0][0], m.0[0][1], m.0[0][2]) = (x[0], x[1], x[2]);
+        (m.0[1][0], m.0[1][1], m.0[1][2]) = (y[0], y[1], y[2]);
+        (m.0[2][0], m.0[2][1], m.0[2][2]) = (z[0], z[1], z[2]);
+        m
+    }
+
     pub(crate) const fn scale([x, y, z]: [f64; 3]) -> Self {
         Self([[x, 0.0, 0.0, 0.0], [0.0, y, 0.0, 0.0], [0.0, 0.0, z, 0.0], [0.0, 0.0, 0.0, 1.0]])
     }

@@ -1,5 +1,6 @@
 //! Colours, numbers and indices of parameters: constants, spectra of every spelling, textures.
 
+use color::emission_to_xyz;
 use scenefile::desc::{ColorDesc, FloatDesc};
 use scenefile::{Diagnostic, Span};
 
@@ -76,10 +77,19 @@ impl Importer {
         }
     }
 
-    /// The colour of a light before its scale: `None` where the parameter is absent.
+    /// The colour of a light before its scale: `None` where the parameter is absent. Version 3 takes spectra at the size that they have.
     pub(super) fn light_color(&mut self, params: &Params, name: &str) -> Option<[f64; 3]> {
         let param = params.find(name, &SPECTRA)?;
-        let rgb = self.triple(params, param, Curve::light)?;
+        let mut rgb = self.triple(params, param, Curve::light)?;
+        if self.is_version_3 {
+            let brightness = match param.kind {
+                // Its greatest value is 1.
+                "blackbody" => param.numbers().first().map_or(1.0, |kelvin| blackbody_luminance(*kelvin)),
+                "spectrum" => self.curve(param).map_or(1.0, |curve| luminance(|nm| curve.at(nm))),
+                _ => 1.0,
+            };
+            rgb = rgb.map(|c| c * brightness);
+        }
         if rgb.iter().any(|c| *c < 0.0) {
             let text = format!("a colour of {} lies outside Rec. 709", params.what);
             self.report.instead(text, "its negative channels are 0", param.span);
@@ -90,14 +100,26 @@ impl Importer {
     /// A reflectance or the like, 0..=1 in each channel; `None` where the parameter is absent.
     pub(super) fn albedo(&mut self, params: &Params, name: &str) -> Option<ColorDesc> {
         if let Some(param) = params.find(name, &["texture"]) {
-            return Some(self.color_texture(param));
+            return Some(match self.color_texture(param) {
+                // A constant one, as large as its author liked.
+                ColorDesc::Rgb(rgb) => {
+                    ColorDesc::Rgb(self.within_one(rgb.map(f64::from), params, param.span))
+                }
+                texture => texture,
+            });
         }
+        let rgb = self.unbounded(params, name)?;
+        let span = params.any(name).map_or(params.span, |param| param.span);
+        Some(ColorDesc::Rgb(self.within_one(rgb, params, span)))
+    }
+
+    /// The same without textures and of any size.
+    pub(super) fn unbounded(&mut self, params: &Params, name: &str) -> Option<[f64; 3]> {
         let param = params.find(name, &[&SPECTRA[..], &["float"]].concat())?;
-        let rgb = match param.kind {
+        match param.kind {
             "float" => param.numbers().first().map(|x| [*x; 3]),
             _ => self.triple(params, param, Curve::albedo),
-        }?;
-        Some(ColorDesc::Rgb(self.within_one(rgb, params, param.span)))
+        }
     }
 
     /// Moved into 0..=1; that changes what is rendered if it is off by more than rounding.
@@ -154,5 +176,32 @@ impl Importer {
                 default as f32
             }
         }
+    }
+}
+
+/// Luminance of a light, 1 for a spectrum of ones.
+fn luminance(spectrum: impl Fn(f64) -> f64) -> f64 {
+    emission_to_xyz(spectrum)[1] / emission_to_xyz(|_| 1.0)[1]
+}
+
+/// Luminance of a black body whose greatest value by wavelength is 1 (pbrt-v3's).
+fn blackbody_luminance(kelvin: f64) -> f64 {
+    let kelvin = kelvin.clamp(500.0, 1e6);
+    // Planck 1901, and Wien's displacement law; constants of CODATA 2018.
+    let planck = |nm: f64| (nm / 560.0).powi(-5) / (1.438_776_877e7 / (nm * kelvin)).exp_m1();
+    let greatest = planck(2.897_771_955e6 / kelvin);
+    luminance(|nm| planck(nm) / greatest)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn version_3_takes_spectra_as_they_are() {
+        assert!((luminance(|_| 7.0) - 7.0).abs() < 1e-9);
+        // At 5200 K the greatest value lies where the eye is most sensitive; hotter or colder bodies are darker to it.
+        let at = [2000.0, 5200.0, 20_000.0].map(blackbody_luminance);
+        assert!(at[1] > 0.97 && at[1] < 1.0 && at[0] < 0.4 && at[2] < 0.4, "{at:?}");
     }
 }

@@ -80,22 +80,8 @@ impl Importer {
             "Include" | "Import" => self.include(name, span)?,
             "Camera" | "Film" | "PixelFilter" | "Filter" | "Sampler" | "Integrator" | "SurfaceIntegrator"
             | "Accelerator" | "VolumeIntegrator" | "Renderer" => self.setting(name, span)?,
-            "MakeNamedMedium" => {
-                let (medium, _) = self.string(name, span)?;
-                self.params(format!("the medium `{medium}`"), span, None)?;
-                self.report.instead(
-                    "participating media are not rendered",
-                    "light crosses them as if they were empty",
-                    span,
-                );
-            }
-            "MediumInterface" => {
-                self.string(name, span)?;
-                // A single name stands for inside and outside.
-                if matches!(self.peek(), Some((super::lexer::Token::Text, _))) {
-                    self.string(name, span)?;
-                }
-            }
+            "MakeNamedMedium" => self.named_medium(span)?,
+            "MediumInterface" => self.medium_interface(span)?,
             "Texture" => self.texture_directive(span)?,
             "Material" => {
                 let (kind, at) = self.string(name, span)?;

@@ -5,6 +5,7 @@ use scenefile::desc::{FilterKind, IntegratorKind, View};
 
 use super::Importer;
 use super::params::Params;
+use super::white::WhiteBalance;
 
 impl Importer {
     /// Understands what came before the world.
@@ -16,6 +17,8 @@ impl Importer {
         self.desc.film.filter_radius = Some(1.5);
         self.desc.render.passes = 16;
         self.desc.render.max_depth = Some(5);
+        self.preamble.crop = crop(self.desc.film.size, None, None);
+        self.preamble.diagonal_mm = 35.0;
         if let Some((params, kind)) = self.preamble.film.take() {
             self.film(&params, &kind);
         }
@@ -28,7 +31,7 @@ impl Importer {
         if let Some((params, kind)) = self.preamble.integrator.take() {
             self.integrator(&params, &kind);
         }
-        self.camera(self.desc.film.size, world);
+        self.camera(world);
     }
 
     fn film(&mut self, params: &Params, kind: &str) {
@@ -44,17 +47,15 @@ impl Importer {
             params.integer(report, "xresolution", 1280, side),
             params.integer(report, "yresolution", 720, side),
         ];
-        for name in ["cropwindow", "pixelbounds"] {
-            if let Some(param) = params.any(name) {
-                report.instead(
-                    "a part of the picture is not rendered alone",
-                    "the whole picture is",
-                    param.span,
-                );
-            }
+        let given = |name| params.find(name, &["float", "integer"]).map(|p| p.numbers().to_vec());
+        self.preamble.crop = crop(self.desc.film.size, given("cropwindow"), given("pixelbounds"));
+        if self.preamble.crop.is_none() {
+            let text = "the part of the picture that is to be rendered is empty";
+            report.error("out-of-range", text, params.span);
         }
         // Neither names nor what is stored beside the radiance change it.
-        let names = ["filename", "diagonal", "savefp16", "maxcomponentvalue", "coordinatesystem", "nbuckets"];
+        self.preamble.diagonal_mm = params.positive(report, "diagonal", 35.0);
+        let names = ["filename", "savefp16", "maxcomponentvalue", "coordinatesystem", "nbuckets"];
         params.ignore(&names);
         params.ignore(&["lambdamin", "lambdamax"]);
         // pbrt-v4, PixelSensor: radiance is multiplied by the exposure time and by ISO / 100.
@@ -72,10 +73,12 @@ impl Importer {
                 sensor.span,
             );
         }
-        if let Some(white) = params.any("whitebalance")
-            && white.numbers().first().is_some_and(|k| *k != 0.0)
+        if let Some(white) = params.find("whitebalance", &["float"])
+            && let Some(&kelvin) = white.numbers().first().filter(|kelvin| **kelvin > 0.0)
         {
-            report.instead("white balance is not applied", "white is that of Rec. 709, D65", white.span);
+            self.white = WhiteBalance::from_kelvin(kelvin);
+            let text = "the picture's white balance";
+            report.instead(text, "the lights are balanced in its place", white.span);
         }
         params.finish(report);
     }
@@ -89,13 +92,7 @@ impl Importer {
             "box" => (FilterKind::Box, radius(0.5)),
             "gaussian" => (FilterKind::Gaussian, radius(1.5)),
             "mitchell" => (FilterKind::Mitchell, radius(2.0)),
-            "triangle" => {
-                // A tent of half width r has the variance r²/6, our Gaussian a third of its radius as deviation.
-                let ([x, y], r) = radius(2.0);
-                let text = "the triangle filter is not rendered";
-                self.report.instead(text, "a Gaussian of the same variance takes its place", params.span);
-                (FilterKind::Gaussian, ([x, y], r * 1.5f64.sqrt()))
-            }
+            "triangle" => (FilterKind::Triangle, radius(2.0)),
             "sinc" => {
                 let text = "the sinc filter is not rendered";
                 self.report.instead(text, "Mitchell's filter of radius 2 takes its place", params.span);
@@ -207,5 +204,39 @@ impl Importer {
         ];
         params.ignore(&names);
         params.finish(report);
+    }
+}
+
+/// The part of a picture that is rendered: columns and rows, each from and up to. `None`: nothing of it.
+///
+/// pbrt-v4, FilmBaseParameters: a window of shares is rounded up to whole pixels at either end; bounds in pixels come first.
+fn crop(size: [u32; 2], window: Option<Vec<f64>>, bounds: Option<Vec<f64>>) -> Option<[[u32; 2]; 2]> {
+    let clipped = |from: f64, to: f64, axis: usize| {
+        let [from, to] = [from, to].map(|x| x.clamp(0.0, f64::from(size[axis])) as u32);
+        (from < to).then_some([from, to])
+    };
+    let share = |x: f64, axis: usize| (x.clamp(0.0, 1.0) * f64::from(size[axis])).ceil();
+    match (window.as_deref(), bounds.as_deref()) {
+        (_, Some(&[x0, x1, y0, y1])) => Some([clipped(x0, x1, 0)?, clipped(y0, y1, 1)?]),
+        (Some(&[x0, x1, y0, y1]), _) => {
+            let [x0, x1, y0, y1] = [x0.min(x1), x0.max(x1), y0.min(y1), y0.max(y1)];
+            Some([clipped(share(x0, 0), share(x1, 0), 0)?, clipped(share(y0, 1), share(y1, 1), 1)?])
+        }
+        _ => Some([[0, size[0]], [0, size[1]]]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_of_a_picture() {
+        let size = [100, 50];
+        assert_eq!(crop(size, None, None), Some([[0, 100], [0, 50]]));
+        assert_eq!(crop(size, Some(vec![0.105, 0.5, 0.0, 0.5]), None), Some([[11, 50], [0, 25]]));
+        let both = crop(size, Some(vec![0.0, 0.5, 0.0, 0.5]), Some(vec![10.0, 400.0, 20.0, 30.0]));
+        assert_eq!(both, Some([[10, 100], [20, 30]]));
+        assert_eq!(crop(size, Some(vec![0.5, 0.5, 0.0, 1.0]), None), None);
     }
 }

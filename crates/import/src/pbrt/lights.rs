@@ -1,21 +1,20 @@
-//! Lights.
+//! Lights at a point and from a direction, and how much any light gives.
 //!
 //! In pbrt-v4 whatever spectrum a light has is first scaled to luminance 1 (RGB: such that white has it), then
 //! multiplied by `scale`; `power` and `illuminance` set the total instead.
 
 use std::f64::consts::PI;
-use std::rc::Rc;
 
-use scenefile::desc::{Emission, EmissionAmount, Light, LightKind, PointAmount};
-use scenefile::{Diagnostic, Sourced, Span};
+use scenefile::desc::{ImageSource, Light, LightKind, PointAmount, SkyMapping};
+use scenefile::{Sourced, Span};
 
 use super::Importer;
 use super::params::Params;
-use crate::matrix::{narrow, sub, times};
+use crate::matrix::{Matrix, narrow, sub};
 
 impl Importer {
-    /// Colour times scale and the film's gain. `unit`: what a total of 1 makes of it, for the parameter `total`.
-    fn amount(&mut self, params: &Params, color: &str, total: &str, unit: f64) -> [f64; 3] {
+    /// Colour times scale, white balance and the film's gain. `unit`: what a total of 1 makes of it, for the parameter `total`.
+    pub(super) fn amount(&mut self, params: &Params, color: &str, total: &str, unit: f64) -> [f64; 3] {
         let rgb = self.light_color(params, color).unwrap_or([1.0; 3]);
         // Version 3 gives `scale` as a colour.
         let scale = match params.find("scale", &["rgb", "spectrum", "blackbody"]) {
@@ -32,7 +31,7 @@ impl Importer {
             );
             return [0.0; 3];
         }
-        rgb
+        self.white.balanced(rgb)
     }
 
     pub(super) fn light(&mut self, kind: &str, at: Span, params: &Params) {
@@ -42,66 +41,38 @@ impl Importer {
         let toward = narrow(ctm.vector(sub(to, from)));
         let position = narrow(ctm.point(from));
         let light = match kind {
-            "point" | "goniometric" => {
-                if kind == "goniometric" {
-                    let text = "the distribution of a goniometric light is not rendered";
-                    self.report.instead(text, "it shines the same in every direction", params.span);
-                    params.ignore(&["filename", "mapname"]);
-                }
+            "point" => {
                 let intensity = self.amount(params, "I", "power", 1.0 / (4.0 * PI));
-                LightKind::Point { position, amount: PointAmount::Intensity(narrow(intensity)) }
+                Some(LightKind::Point { position, amount: PointAmount::Intensity(narrow(intensity)) })
             }
+            "goniometric" => Some(self.goniometric(params, &ctm)),
             "spot" => {
                 let cone = params.number_or("coneangle", 30.0).clamp(0.01, 180.0);
                 let delta = params.number_or("conedeltaangle", 5.0).clamp(0.0, cone);
                 let [end, start] = [cone, cone - delta].map(|a| a.to_radians().cos());
                 let unit = 1.0 / (2.0 * PI * ((1.0 - start) + (start - end) / 2.0));
                 let intensity = self.amount(params, "I", "power", unit);
-                LightKind::Spot {
+                Some(LightKind::Spot {
                     position,
                     direction: toward,
                     cone_angle: cone as f32,
                     falloff_angle: delta as f32,
                     amount: PointAmount::Intensity(narrow(intensity)),
-                }
+                })
             }
-            "projection" => {
-                let text = "the image of a projection light is not rendered";
-                self.report.instead(text, "a spot of its angle shines in white", params.span);
-                params.ignore(&["filename", "mapname"]);
-                let fov = params.number_or("fov", 90.0).clamp(0.1, 179.0);
-                let unit = 1.0 / (2.0 * PI * (1.0 - (fov / 2.0).to_radians().cos()));
-                let intensity = self.amount(params, "I", "power", unit);
-                LightKind::Spot {
-                    position: narrow(ctm.point([0.0; 3])),
-                    direction: narrow(ctm.vector([0.0, 0.0, 1.0])),
-                    cone_angle: (fov / 2.0) as f32,
-                    falloff_angle: 0.0,
-                    amount: PointAmount::Intensity(narrow(intensity)),
-                }
-            }
+            "projection" => self.projection(params, &ctm),
             "distant" => {
                 let irradiance = narrow(self.amount(params, "L", "illuminance", 1.0));
-                LightKind::Directional { direction: toward, irradiance }
+                Some(LightKind::Directional { direction: toward, irradiance })
             }
-            "infinite" | "exinfinite" => {
-                if let Some(file) = params.any("filename").or(params.any("mapname")) {
-                    let text = "the image of an infinite light is not rendered";
-                    self.report.instead(text, "it shines in its mean colour, taken as white", file.span);
-                }
-                if let Some(portal) = params.any("portal") {
-                    let text = "portals guide no light here";
-                    self.report.instead(text, "the whole surroundings shine", portal.span);
-                }
-                params.ignore(&["nsamples"]);
-                LightKind::Environment { radiance: narrow(self.amount(params, "L", "illuminance", 1.0 / PI)) }
-            }
+            "infinite" | "exinfinite" => Some(self.infinite(params, &ctm)),
             _ => {
                 self.report.error("unknown-kind", format!("there is no light `{kind}`"), at);
-                return;
+                None
             }
         };
-        params.ignore(&["samples"]);
+        let Some(light) = light else { return };
+        params.ignore(&["samples", "nsamples"]);
         if self.object.is_some() {
             self.report.instead(
                 "a light within an object",
@@ -112,40 +83,53 @@ impl Importer {
         self.desc.lights.push(Sourced::at(Light::from(light), params.span));
     }
 
-    pub(super) fn area_light(&mut self, kind: &str, at: Span, params: Params) {
-        if !matches!(kind, "diffuse" | "area") {
-            self.report
-                .push(Diagnostic::error("unknown-kind", format!("there is no area light `{kind}`")).at(at));
-        }
-        if let Some(file) = params.any("filename") {
-            let text = "the image of an area light is not rendered";
-            self.report.instead(text, "it shines in one colour", file.span);
-        }
-        params.ignore(&["samples", "nsamples", "L", "scale", "twosided", "power"]);
-        params.finish(&mut self.report);
-        self.graphics.area_light = Some(Rc::new(params));
+    /// The picture of a light, by its name in either version, and whether it is version 3's.
+    pub(super) fn light_image(&mut self, params: &Params) -> Option<(ImageSource, bool)> {
+        let old = params.find("mapname", &["string"]);
+        let param = params.find("filename", &["string"]).or(old)?;
+        let file = self.find_file(param.text().filter(|name| !name.is_empty())?);
+        Some((ImageSource::File(Sourced::at(file, param.span)), old.is_some() || self.is_version_3))
     }
 
-    /// The emission of a shape, if an area light is in force and the shape is one that may shine.
-    pub(super) fn emission(&mut self, shape: Span) -> Option<Sourced<Emission>> {
-        let params = self.graphics.area_light.clone()?;
-        if self.object.is_some() {
-            let text = "shapes of objects do not shine in pbrt";
-            self.report.instead(text, "they are dark", shape);
-            return None;
+    fn goniometric(&mut self, params: &Params, ctm: &Matrix) -> LightKind {
+        let image = self.light_image(params);
+        if image.is_some() && params.number("power").is_some_and(|p| p > 0.0) {
+            let text = "the power of a goniometric light does not count what its image holds back";
+            self.report.instead(text, "it is that of an image of ones", params.span);
         }
-        let two_sided = params.truth("twosided").unwrap_or(false);
-        let rgb = self.amount(&params, "L", "power", 1.0);
-        let amount = if params.number("power").is_some_and(|p| p > 0.0) {
-            // The flux of each channel; its mean and its proportions.
-            let watts = rgb.iter().sum::<f64>() / 3.0;
-            if watts <= 0.0 {
-                return None;
-            }
-            EmissionAmount::Power { watts: watts as f32, color: narrow(times(rgb, 1.0 / watts)) }
-        } else {
-            EmissionAmount::Radiance(narrow(rgb))
+        let intensity = narrow(self.amount(params, "I", "power", 1.0 / (4.0 * PI)));
+        let Some((source, old)) = image else {
+            let position = narrow(ctm.point([0.0; 3]));
+            return LightKind::Point { position, amount: PointAmount::Intensity(intensity) };
         };
-        Some(Sourced::at(Emission { amount, texture: None, two_sided }, params.span))
+        // The picture's axes in the light's frame. Version 4: y and z change places. Version 3: longitudes from +x toward +z, +y up.
+        let (mapping, axes) = if old {
+            (SkyMapping::LatLong, [[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]])
+        } else {
+            (SkyMapping::EqualArea, [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]])
+        };
+        let transform = ctm.after(&Matrix::rows(axes)).steps();
+        LightKind::Goniometric { source, mapping, intensity, transform }
+    }
+
+    fn projection(&mut self, params: &Params, ctm: &Matrix) -> Option<LightKind> {
+        let Some((source, old)) = self.light_image(params) else {
+            let text = format!("{} has no `filename`", params.what);
+            self.report.error("missing-parameter", text, params.span);
+            return None;
+        };
+        let fov = params.number_or("fov", 90.0).clamp(0.1, 179.0);
+        if params.number("power").is_some_and(|p| p > 0.0) {
+            let text = "the power of a projection light does not count what its image holds back";
+            self.report.instead(text, "it is that of a square of ones", params.span);
+        }
+        // The solid angle of a square whose half side is the tangent (that of a rectangle: Ureña et al. 2013, §2).
+        let tangent = (fov / 2.0).to_radians().tan();
+        let solid = 4.0 * (tangent * tangent / (1.0 + tangent * tangent)).asin();
+        let intensity = narrow(self.amount(params, "I", "power", 1.0 / solid));
+        // The picture's left is at −x; its first row at +y, in version 3 at −y.
+        let up = if old { -1.0 } else { 1.0 };
+        let transform = ctm.after(&Matrix::scale([-1.0, up, 1.0])).steps();
+        Some(LightKind::Projector { source, fov: fov as f32, intensity, transform })
     }
 }

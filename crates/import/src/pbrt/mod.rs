@@ -6,20 +6,31 @@
 //! pbrt's camera looks along +z with +x on the right and +y up, a left-handed frame; ours is right-handed. Where the
 //! camera's transform does not swap hands by itself the whole world is mirrored at x = 0, which shows the same picture.
 
+mod area;
 mod camera;
 mod color;
 mod directives;
 mod film;
+mod image_map;
+mod infinite;
+mod lens;
 mod lexer;
 mod lights;
 mod lower;
 mod materials;
+mod media;
+mod metals;
+mod opacity;
 mod params;
 mod parser;
+mod roughness;
 mod shapes;
+mod soft;
 mod state;
 mod subdivision;
 mod textures;
+mod version3;
+mod white;
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
@@ -31,9 +42,11 @@ use crate::file;
 use crate::matrix::Matrix;
 use crate::report::Report;
 use lower::MaterialUse;
+use media::Filling;
 use params::Params;
 use state::{Graphics, Scope};
 use textures::Textures;
+use white::WhiteBalance;
 
 /// Bytes of text of a scene, at most, with all that it includes, decompressed.
 const MOST_BYTES: u64 = 512 << 20;
@@ -64,6 +77,10 @@ struct Preamble {
     filter: Option<(Params, String)>,
     sampler: Option<(Params, String)>,
     integrator: Option<(Params, String)>,
+    /// Columns and rows of the picture that are rendered, each from and up to.
+    crop: Option<[[u32; 2]; 2]>,
+    /// Of the film, in mm.
+    diagonal_mm: f64,
 }
 
 /// An object between its begin and its end.
@@ -89,11 +106,21 @@ struct Importer {
     coordinate_systems: HashMap<String, Matrix>,
     textures: Textures,
     materials: BTreeMap<String, MaterialUse>,
+    /// Copies of materials, by the key of the original and what is different.
+    variants: HashMap<String, String>,
+    /// What named media absorb, as far as they are rendered.
+    media: HashMap<String, Option<Filling>>,
     object: Option<OpenObject>,
+    /// Where the last object is one of curves: whether it lies in the open object, and how many there are then.
+    curves_at: Option<(bool, usize)>,
+    /// Whether version 3 wrote the scene: it ends with a directive that version 4 does not have.
+    is_version_3: bool,
     /// Our world from pbrt's.
     mirror: Matrix,
     /// Brightness of film and sensor.
     gain: f64,
+    /// What the film takes for white.
+    white: WhiteBalance,
 }
 
 /// Reads and checks a scene. A file that cannot be read is a diagnostic like any other.
@@ -125,9 +152,14 @@ impl Importer {
             coordinate_systems: HashMap::new(),
             textures: Textures::default(),
             materials: BTreeMap::new(),
+            variants: HashMap::new(),
+            media: HashMap::new(),
             object: None,
+            curves_at: None,
+            is_version_3: false,
             mirror: Matrix::IDENTITY,
             gain: 1.0,
+            white: WhiteBalance::NONE,
         }
     }
 
@@ -161,6 +193,10 @@ impl Importer {
             String::from_utf8(bytes).unwrap_or_else(|e| String::from_utf8_lossy(e.as_bytes()).into_owned());
         let file = self.sources.add(path, text);
         let at = if self.text(file).starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
+        let ended = |line: &str| line.trim_start().starts_with("WorldEnd");
+        if self.open.is_empty() && self.text(file).lines().rev().take(100).any(ended) {
+            self.is_version_3 = true;
+        }
         let scopes = self.scopes.len();
         self.open.push(Open { file, at, path: path.to_path_buf(), whole, scopes, graphics: None });
         Ok(())

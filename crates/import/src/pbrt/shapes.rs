@@ -1,8 +1,6 @@
 //! Shapes: to surfaces of the description, with material, light and placement.
 
-use std::collections::BTreeMap;
-
-use scenefile::desc::{Emission, Material, MaterialKind, MaterialRef, Normals, Object, Shape};
+use scenefile::desc::{FloatDesc, MaterialRef, Normals, Object, Shape};
 use scenefile::{Sourced, Span};
 
 use super::Importer;
@@ -16,18 +14,21 @@ const MOST_VERTICES: u64 = 1 << 26;
 
 impl Importer {
     pub(super) fn shape(&mut self, kind: &str, at: Span, params: &Params) {
-        let material = self.current_material(params.span);
+        let material = self.surface(params);
         let emission = self.emission(params.span);
-        let emission = emission.filter(|e| gives_light(e));
-        self.alpha(params);
+        let needs = Needs {
+            sides: emission.is_some() || material.as_deref().is_some_and(|m| self.has_sides(m)),
+            uvs: emission.as_ref().is_some_and(|e| e.texture.is_some())
+                || material.as_deref().is_some_and(|m| self.has_uv_textures(m)),
+        };
         let made = match kind {
-            "trianglemesh" => self.triangle_mesh(params).map(|m| self.triangles(m, params)),
-            "plymesh" => Some(self.ply_mesh(params, material.as_ref(), emission.is_some())),
+            "trianglemesh" => self.triangle_mesh(params, needs).map(|m| self.triangles(m, params)),
+            "plymesh" => Some(self.ply_mesh(params, needs)),
             "bilinearmesh" => self.bilinear_mesh(params).map(|m| self.triangles(m, params)),
             "loopsubdiv" => self.loop_subdivision(params).map(|m| self.triangles(m, params)),
             "curve" => self.curve_shape(params).map(|m| self.triangles(m, params)),
-            "sphere" => Some(self.sphere(params)),
-            "disk" => Some(self.disk(params)),
+            "sphere" => Some(self.sphere(params, needs)),
+            "disk" => Some(self.disk(params, needs)),
             "cylinder" | "cone" | "paraboloid" => {
                 self.quadric(kind, params).map(|m| self.triangles(m, params))
             }
@@ -46,13 +47,13 @@ impl Importer {
             }
         };
         let Some(shape) = made.flatten() else { return };
-        if material.is_none() {
+        let Some(material) = material else {
             if let Some(emission) = emission {
                 let text = "a surface that is no more than an interface does not shine in pbrt";
                 self.report.instead(text, "it is left out", emission.span.unwrap_or(params.span));
             }
             return;
-        }
+        };
         let place = match self.object {
             Some(_) => self.graphics.ctm,
             None => self.mirror.after(&self.graphics.ctm),
@@ -60,27 +61,69 @@ impl Importer {
         let object = Object {
             name: None,
             shape: Sourced::at(shape, params.span),
-            material,
+            material: Some(MaterialRef::Named(Sourced::at(material, params.span))),
             transform: place.steps(),
             flip_normals: self.graphics.reverse,
             emission,
             light_group: None,
         };
-        let object = Sourced::at(object, params.span);
-        match &mut self.object {
-            Some(open) => open.group.objects.push(object),
-            None => self.desc.objects.push(object),
+        self.add_object(Sourced::at(object, params.span), kind == "curve");
+    }
+
+    /// The key of the material of a shape with its opacity and what fills it; `None`: nothing scatters.
+    fn surface(&mut self, params: &Params) -> Option<String> {
+        let opacity = self.alpha(params);
+        let mut key = self.current_material(params.span)?;
+        if opacity != FloatDesc::Value(1.0) && self.graphics.area_light.is_some() {
+            let text = "a lamp is opaque";
+            self.report.instead(text, "its `alpha` is ignored", params.span);
+        } else {
+            key = self.with_opacity(&key, opacity, params.span);
+        }
+        match self.graphics.interior {
+            Some(filling) => {
+                let filled = self.with_absorption(&key, filling.absorption, params.span);
+                if filled == key {
+                    self.outside_of_glass(filling, params.span);
+                }
+                Some(filled)
+            }
+            None => Some(key),
         }
     }
 
-    fn alpha(&mut self, params: &Params) {
-        for name in ["alpha", "shadowalpha"] {
-            if let Some(param) = params.any(name)
-                && param.numbers().first() != Some(&1.0)
-            {
-                let text = "the opacity of shapes is not rendered";
-                self.report.instead(text, "they are opaque", param.span);
-            }
+    /// Puts an object into the scene or the open object. Curves of one kind, of which there are very many, become one.
+    fn add_object(&mut self, object: Sourced<Object>, is_curve: bool) {
+        let inside = self.object.is_some();
+        let objects = match &mut self.object {
+            Some(open) => &mut open.group.objects,
+            None => &mut self.desc.objects,
+        };
+        let before = self.curves_at.take();
+        let same = |last: &Sourced<Object>| {
+            let (a, b) = (&last.value, &object.value);
+            a.transform == b.transform
+                && a.flip_normals == b.flip_normals
+                && a.emission.is_none()
+                && b.emission.is_none()
+                && a.material_name() == b.material_name()
+        };
+        let is_room = |last: &Sourced<Object>| match &last.shape.value {
+            Shape::Triangles { positions, .. } => (positions.len() as u64) < MOST_VERTICES,
+            _ => false,
+        };
+        let here = (inside, objects.len());
+        if is_curve
+            && before == Some(here)
+            && let Some(last) = objects.last_mut().filter(|last| same(last) && is_room(last))
+        {
+            last.value.shape.value.extend(object.value.shape.value);
+            self.curves_at = Some(here);
+            return;
+        }
+        objects.push(object);
+        if is_curve {
+            self.curves_at = Some((inside, objects.len()));
         }
     }
 
@@ -140,20 +183,18 @@ impl Importer {
         Some(indices.chunks_exact(N).map(|c| std::array::from_fn(|i| c[i])).collect())
     }
 
-    fn triangle_mesh(&mut self, params: &Params) -> Option<Mesh> {
+    fn triangle_mesh(&mut self, params: &Params, needs: Needs) -> Option<Mesh> {
         // Tangents are of no use without hair or anisotropy along them; face indices are for textures of Ptex.
         params.ignore(&["S", "faceIndices"]);
         let mesh = self.vertices(params)?;
         let indices = self.faces::<3>(params, mesh.positions.len())?;
-        Some(Mesh { indices, ..mesh })
+        let mesh = Mesh { indices, ..mesh };
+        Some(if needs.uvs { with_uvs(mesh) } else { mesh })
     }
 
     fn bilinear_mesh(&mut self, params: &Params) -> Option<Mesh> {
-        if let Some(file) = params.any("emissionfilename") {
-            let text = "the image of an area light is not rendered";
-            self.report.instead(text, "it shines in one colour", file.span);
-        }
-        params.ignore(&["faceIndices"]);
+        // The image says where samples go, not what shines.
+        params.ignore(&["faceIndices", "emissionfilename"]);
         let mesh = self.vertices(params)?;
         let patches = self.faces::<4>(params, mesh.positions.len())?;
         if patches.len() as u64 * surfaces::PATCH_VERTICES > MOST_VERTICES {
@@ -219,44 +260,52 @@ impl Importer {
         made
     }
 
-    fn ply_mesh(&mut self, params: &Params, material: Option<&MaterialRef>, shines: bool) -> Option<Shape> {
+    fn ply_mesh(&mut self, params: &Params, needs: Needs) -> Option<Shape> {
         let Some(file) = params.find("filename", &["string"]) else {
             self.report.error("missing-parameter", format!("{} has no `filename`", params.what), params.span);
             return None;
         };
         if let Some(displaced) = params.any("displacement") {
             self.report.instead("displacement is not rendered", "the surface is smooth", displaced.span);
-            params.ignore(&["edgelength", "displacement.uvscale"]);
+            params.ignore(&["edgelength", "displacement.uvscale", "uvscale"]);
         }
         let path = self.find_file(file.text().unwrap_or_default());
-        // pbrt turns faces to the side of their normals. It shows where the sides differ: only then is the file read here.
-        let sides = shines || material.is_some_and(|m| has_sides(&self.desc.materials, m));
-        if sides && let Ok(read) = mesh::read(self.base.join(&path)) {
-            let mut turned = Mesh::from(read);
-            if turned.turn_to_normals() {
-                return self.triangles(turned, params);
+        // pbrt turns faces to the side of their normals, and has texture coordinates where none are given. The file is read here only
+        // where that shows.
+        if (needs.sides || needs.uvs)
+            && let Ok(read) = mesh::read(self.base.join(&path))
+        {
+            let mut mesh = Mesh::from(read);
+            let turned = needs.sides && mesh.turn_to_normals();
+            let bare = needs.uvs && mesh.uvs.is_empty();
+            if bare {
+                mesh = with_uvs(mesh);
+            }
+            if turned || bare {
+                return self.triangles(mesh, params);
             }
         }
         Some(Shape::Mesh { file: Sourced::at(path, file.span), normals: Normals::Given })
     }
 
-    fn sphere(&mut self, params: &Params) -> Option<Shape> {
+    fn sphere(&mut self, params: &Params, needs: Needs) -> Option<Shape> {
         let radius = params.positive(&mut self.report, "radius", 1.0);
         let z = [("zmin", -radius), ("zmax", radius)]
             .map(|(name, all)| params.number_or(name, all).clamp(-radius, radius));
         let turn = params.number_or("phimax", 360.0);
-        if z == [-radius, radius] && turn >= 360.0 {
+        // Ours has other texture coordinates.
+        if z == [-radius, radius] && turn >= 360.0 && !needs.uvs {
             return Some(Shape::Sphere { center: [0.0; 3], radius: radius as f32 });
         }
         let mesh = surfaces::sphere(radius, z[0].min(z[1]), z[0].max(z[1]), turn.clamp(0.0, 360.0));
         self.triangles(mesh, params)
     }
 
-    fn disk(&mut self, params: &Params) -> Option<Shape> {
+    fn disk(&mut self, params: &Params, needs: Needs) -> Option<Shape> {
         let radius = params.positive(&mut self.report, "radius", 1.0);
         let (height, inner) = (params.number_or("height", 0.0), params.number_or("innerradius", 0.0));
         let turn = params.number_or("phimax", 360.0);
-        if inner <= 0.0 && turn >= 360.0 {
+        if inner <= 0.0 && turn >= 360.0 && !needs.uvs {
             let center = [0.0, 0.0, height as f32];
             return Some(Shape::Disk { center, normal: [0.0, 0.0, 1.0], radius: radius as f32 });
         }
@@ -285,19 +334,65 @@ impl Importer {
     }
 }
 
-/// Whether any of it arrives.
-fn gives_light(emission: &Emission) -> bool {
-    match emission.amount {
-        scenefile::desc::EmissionAmount::Radiance(rgb) => rgb.iter().any(|c| *c > 0.0),
-        scenefile::desc::EmissionAmount::Power { watts, .. } => watts > 0.0,
+/// What must be as pbrt has it, because it shows.
+#[derive(Clone, Copy)]
+struct Needs {
+    /// Which side of a face is its front.
+    sides: bool,
+    /// Texture coordinates where none are given.
+    uvs: bool,
+}
+
+/// pbrt's texture coordinates of triangles that have none: (0, 0), (1, 0) and (1, 1).
+fn with_uvs(mesh: Mesh) -> Mesh {
+    if !mesh.uvs.is_empty() {
+        return mesh;
+    }
+    let corners: Vec<usize> = mesh.indices.iter().flatten().map(|v| *v as usize).collect();
+    let of = |list: &[[f32; 3]]| {
+        if list.is_empty() { Vec::new() } else { corners.iter().map(|v| list[*v]).collect() }
+    };
+    Mesh {
+        positions: of(&mesh.positions),
+        normals: of(&mesh.normals),
+        uvs: [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]].into_iter().cycle().take(corners.len()).collect(),
+        indices: (0..mesh.indices.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
     }
 }
 
-/// Whether it matters which side of a surface is its front.
-fn has_sides(materials: &BTreeMap<String, Sourced<Material>>, material: &MaterialRef) -> bool {
-    let kind = match material {
-        MaterialRef::Named(name) => materials.get(&name.value).map(|m| &m.kind),
-        MaterialRef::Inline(material) => Some(&material.kind),
-    };
-    matches!(kind, Some(MaterialKind::Dielectric { .. }))
+/// What shapes need of an object.
+trait Placed {
+    /// The name of the material.
+    fn material_name(&self) -> Option<&str>;
+}
+
+impl Placed for Object {
+    fn material_name(&self) -> Option<&str> {
+        match &self.material {
+            Some(MaterialRef::Named(name)) => Some(&name.value),
+            _ => None,
+        }
+    }
+}
+
+/// Meshes that grow.
+trait Growing {
+    /// Takes in another mesh of the same kind.
+    fn extend(&mut self, other: Shape);
+}
+
+impl Growing for Shape {
+    fn extend(&mut self, other: Shape) {
+        if let (
+            Shape::Triangles { positions, indices, vertex_normals, uvs, .. },
+            Shape::Triangles { positions: p, indices: i, vertex_normals: n, uvs: t, .. },
+        ) = (self, other)
+        {
+            let first = positions.len() as u32;
+            positions.extend(p);
+            vertex_normals.extend(n);
+            uvs.extend(t);
+            indices.extend(i.into_iter().map(|t| t.map(|v| v + first)));
+        }
+    }
 }

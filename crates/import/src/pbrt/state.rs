@@ -2,9 +2,10 @@
 
 use std::rc::Rc;
 
-use scenefile::Span;
+use scenefile::{Sourced, Span};
 
 use super::lower::MaterialUse;
+use super::media::Filling;
 use super::params::{Param, Params};
 use crate::matrix::Matrix;
 use crate::spectrum::Space;
@@ -42,6 +43,10 @@ pub(super) struct Graphics {
     /// `None`: pbrt's default.
     pub material: Option<MaterialUse>,
     pub area_light: Option<Rc<Params>>,
+    /// The picture that the area light shines in.
+    pub area_texture: Option<Sourced<String>>,
+    /// The medium inside of surfaces.
+    pub interior: Option<Filling>,
     /// By [`Target`].
     pub defaults: Rc<[Vec<Param>; 5]>,
     pub space: Space,
@@ -55,6 +60,8 @@ impl Default for Graphics {
             reverse: false,
             material: None,
             area_light: None,
+            area_texture: None,
+            interior: None,
             defaults: Rc::default(),
             space: Space::default(),
         }

@@ -1,28 +1,22 @@
 //! Textures.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
-use scenefile::desc::{
-    ColorDesc, ColorSpace, FloatDesc, Image, ImageSource, Mapping, Texture, TextureFilter, Wrap,
-};
+use scenefile::desc::{ColorDesc, FloatDesc, Image, Mapping, Noise, NoiseKind, Texture};
 use scenefile::{Sourced, Span};
 
 use super::Importer;
 use super::params::{Param, Params};
 use super::parser::Parsed;
 use super::state::Target;
+use crate::matrix::narrow;
+use crate::names::free_name;
 
 /// pbrt's textures by name: numbers and colours have names of their own.
 #[derive(Debug, Default)]
 pub(super) struct Textures {
     floats: HashMap<String, ColorDesc>,
     colors: HashMap<String, ColorDesc>,
-}
-
-/// Scale and offset of texture coordinates.
-struct Placed {
-    scale: [f32; 2],
-    offset: [f32; 2],
 }
 
 impl Importer {
@@ -80,17 +74,20 @@ impl Importer {
         }
     }
 
-    /// A parameter of a texture, which is a number, a colour or another texture.
+    /// A parameter of a texture, which is a number, a colour or another texture; a number's texture serves as a colour, too.
     fn texture_input(&mut self, params: &Params, name: &str, default: f32, float: bool) -> ColorDesc {
-        let value = if float {
-            self.float(params, name).map(|value| match value {
-                FloatDesc::Value(x) => ColorDesc::Rgb([x; 3]),
-                FloatDesc::Texture(name) => ColorDesc::Texture(name),
-            })
-        } else {
-            self.albedo(params, name)
-        };
-        value.unwrap_or(ColorDesc::Rgb([default; 3]))
+        let Some(param) = params.any(name) else { return ColorDesc::Rgb([default; 3]) };
+        if param.kind == "texture" {
+            let known = |textures: &HashMap<String, ColorDesc>| {
+                param.text().is_some_and(|name| textures.contains_key(name))
+            };
+            if float || (!known(&self.textures.colors) && known(&self.textures.floats)) {
+                return grey(self.float_texture(param));
+            }
+            return self.color_texture(param);
+        }
+        let value = if float { params.number(name).map(|x| [x; 3]) } else { self.unbounded(params, name) };
+        ColorDesc::Rgb(value.map_or([default; 3], narrow))
     }
 
     fn texture(
@@ -102,27 +99,19 @@ impl Importer {
         float: bool,
     ) -> Option<ColorDesc> {
         let input = |this: &mut Self, name, default| this.texture_input(params, name, default, float);
-        match class {
-            "constant" => Some(input(self, "value", 1.0)),
-            "imagemap" => self.image(name, params),
+        let (texture, span) = match class {
+            "constant" => return Some(input(self, "value", 1.0)),
+            "imagemap" => return self.image_map(name, params, float),
             "checkerboard" => {
                 let (a, b) = (input(self, "tex1", 1.0), input(self, "tex2", 0.0));
                 if params.integer(&mut self.report, "dimension", 2, [2, 3]) == 3 {
                     let text = "a checkerboard in space is not rendered";
                     self.report.instead(text, "it lies on the surface", params.span);
                 }
-                let Placed { scale, offset } = self.mapping(params);
-                if offset != [0.0; 2] {
-                    let text = "the offset of a checkerboard is not rendered";
-                    self.report.instead(text, "it begins at the origin", params.span);
-                }
+                // Version 3 may have its edges smoothed; so are those here, by many samples.
                 params.ignore(&["aamode"]);
                 // pbrt's squares have side 1, ours 1/2.
-                Some(self.add_texture(
-                    name,
-                    Texture::Checker { a, b, mapping: Mapping::scaled(scale.map(|s| s / 2.0)) },
-                    params.span,
-                ))
+                (Texture::Checker { a, b, mapping: self.mapping(params, 0.5) }, params.span)
             }
             "scale" => {
                 // Version 3 names the two alike.
@@ -132,25 +121,22 @@ impl Importer {
                     ["tex", "scale"]
                 };
                 let (a, b) = (input(self, first, 1.0), input(self, second, 1.0));
-                Some(self.product(a, b, params.span))
+                return Some(self.product(name, a, b, params.span));
             }
             "mix" => {
                 let (a, b) = (input(self, "tex1", 0.0), input(self, "tex2", 1.0));
                 let amount = self.float(params, "amount").unwrap_or(0.5.into());
-                Some(match (a, b, amount) {
-                    (ColorDesc::Rgb(a), ColorDesc::Rgb(b), FloatDesc::Value(t)) => {
-                        ColorDesc::Rgb([0, 1, 2].map(|i| (1.0 - t) * a[i] + t * b[i]))
-                    }
-                    (a, b, amount) => {
-                        let text = "a mix of textures is not rendered";
-                        self.report.instead(
-                            text,
-                            "the one of the greater share takes its place",
-                            params.span,
-                        );
-                        if matches!(amount, FloatDesc::Value(t) if t > 0.5) { b } else { a }
-                    }
-                })
+                if let (ColorDesc::Rgb(a), ColorDesc::Rgb(b), FloatDesc::Value(t)) = (&a, &b, &amount) {
+                    return Some(ColorDesc::Rgb([0, 1, 2].map(|i| (1.0 - t) * a[i] + t * b[i])));
+                }
+                (Texture::Mix { a, b, amount }, params.span)
+            }
+            "directionmix" => {
+                let (a, b) = (input(self, "tex1", 0.0), input(self, "tex2", 1.0));
+                params.ignore(&["dir"]);
+                let text = "a mix of textures by direction is not rendered";
+                self.report.instead(text, "each has half a share everywhere", params.span);
+                (Texture::Mix { a, b, amount: 0.5.into() }, params.span)
             }
             "bilerp" => {
                 let corners = ["v00", "v01", "v10", "v11"];
@@ -159,121 +145,114 @@ impl Importer {
                         ColorDesc::Rgb(rgb) => rgb,
                         ColorDesc::Texture(_) => [0.5; 3],
                     });
-                self.mapping(params);
-                self.flat(class, params);
+                self.mapping(params, 1.0);
                 let mean = |i: usize| colors.iter().map(|c| c[i]).sum::<f32>() / 4.0;
-                Some(ColorDesc::Rgb([0, 1, 2].map(mean)))
+                return Some(self.flat(class, [0, 1, 2].map(mean), params));
             }
             "dots" => {
-                let _ = input(self, "inside", 1.0);
-                let outside = input(self, "outside", 0.0);
-                self.mapping(params);
-                self.flat(class, params);
-                Some(outside)
+                let (inside, outside) = (input(self, "inside", 1.0), input(self, "outside", 0.0));
+                (Texture::Dots { inside, outside, mapping: self.mapping(params, 1.0) }, params.span)
             }
-            "fbm" | "wrinkled" | "windy" | "marble" | "uv" | "ptex" | "directionmix" => {
-                params.ignore(&["octaves", "roughness", "scale", "variation", "filename", "encoding"]);
-                params.ignore(&["tex1", "tex2", "dir", "mapping", "uscale", "vscale", "udelta", "vdelta"]);
-                self.flat(class, params);
-                Some(ColorDesc::Rgb([0.5; 3]))
+            "fbm" => (self.noise(NoiseKind::Fbm, params), params.span),
+            "wrinkled" => (self.noise(NoiseKind::Wrinkled, params), params.span),
+            "windy" => (self.noise(NoiseKind::Windy, params), params.span),
+            "marble" => {
+                let scale = params.number_or("scale", 1.0) as f32;
+                let variation = params.number_or("variation", 0.2) as f32;
+                (self.noise(NoiseKind::Marble { scale, variation }, params), params.span)
+            }
+            "uv" => {
+                self.mapping(params, 1.0);
+                return Some(self.flat(class, [0.5, 0.5, 0.0], params));
+            }
+            "ptex" => {
+                params.ignore(&["filename", "encoding", "scale", "gamma"]);
+                return Some(self.flat(class, [0.5; 3], params));
             }
             _ => {
                 self.report.error("unknown-kind", format!("there is no texture `{class}`"), at);
-                None
+                return None;
             }
-        }
+        };
+        Some(self.add_texture(name, texture, span))
     }
 
-    fn flat(&mut self, class: &str, params: &Params) {
+    fn noise(&mut self, kind: NoiseKind, params: &Params) -> Texture {
+        let octaves = params.integer(&mut self.report, "octaves", 8, [1, 32]);
+        let roughness = params.number_or("roughness", 0.5).clamp(0.0, 1.0) as f32;
+        params.ignore(&["mapping"]);
+        let transform = self.mirror.after(&self.graphics.ctm).steps();
+        Texture::Noise(Noise { kind, octaves, roughness, transform })
+    }
+
+    fn flat(&mut self, class: &str, rgb: [f32; 3], params: &Params) -> ColorDesc {
         let text = format!("the texture `{class}` is not rendered");
         self.report.instead(text, "its surfaces have one colour", params.span);
+        ColorDesc::Rgb(rgb)
     }
 
-    fn product(&mut self, a: ColorDesc, b: ColorDesc, span: Span) -> ColorDesc {
+    /// The product of two; a texture of it if it is no constant.
+    pub(super) fn product(&mut self, name: &str, a: ColorDesc, b: ColorDesc, span: Span) -> ColorDesc {
         match (a, b) {
             (ColorDesc::Rgb(a), ColorDesc::Rgb(b)) => ColorDesc::Rgb([0, 1, 2].map(|i| a[i] * b[i])),
             (texture, ColorDesc::Rgb([1.0, 1.0, 1.0])) | (ColorDesc::Rgb([1.0, 1.0, 1.0]), texture) => {
                 texture
             }
-            (ColorDesc::Texture(name), _) | (_, ColorDesc::Texture(name)) => {
-                let text = "a scaled texture is not rendered";
-                self.report.instead(text, "it is taken as it is", span);
-                ColorDesc::Texture(name)
+            (a, b) => self.add_texture(name, Texture::Product { a, b }, span),
+        }
+    }
+
+    /// 1 minus a number.
+    pub(super) fn complement(&mut self, name: &str, value: FloatDesc, span: Span) -> FloatDesc {
+        match value {
+            FloatDesc::Value(x) => FloatDesc::Value(1.0 - x),
+            texture => {
+                let mix = Texture::Mix { a: 1.0.into(), b: 0.0.into(), amount: texture };
+                number(self.add_texture(name, mix, span))
             }
         }
     }
 
-    fn mapping(&mut self, params: &Params) -> Placed {
-        let names = ["uscale", "vscale", "udelta", "vdelta"];
-        let [us, vs, ud, vd] = names.map(|name| params.number(name).map(|x| x as f32));
-        if let Some(mapping) = params.find("mapping", &["string"])
-            && mapping.text() != Some("uv")
-        {
-            let text =
-                format!("the texture mapping `{}` is not rendered", mapping.text().unwrap_or_default());
-            self.report.instead(text, "the surface's own coordinates are used", mapping.span);
-            params.ignore(&["v1", "v2"]);
-        }
-        Placed {
-            scale: [us.unwrap_or(1.0), vs.unwrap_or(1.0)],
-            offset: [ud.unwrap_or(0.0), vd.unwrap_or(0.0)],
-        }
+    /// The product of two numbers.
+    pub(super) fn number_product(&mut self, name: &str, a: FloatDesc, b: FloatDesc, span: Span) -> FloatDesc {
+        number(self.product(name, grey(a), grey(b), span))
     }
 
-    fn image(&mut self, name: &str, params: &Params) -> Option<ColorDesc> {
-        let Some(file) = params.find("filename", &["string"]) else {
-            let text = format!("{} has no `filename`", params.what);
-            self.report.error("missing-parameter", text, params.span);
-            return None;
-        };
-        let path = self.find_file(file.text().unwrap_or_default());
-        let Placed { scale, offset } = self.mapping(params);
-        let color_space = match params.text("encoding") {
-            None | Some("sRGB") => ColorSpace::Srgb,
-            Some("linear") => ColorSpace::Linear,
-            Some(other) => {
-                let text = format!("the encoding `{other}` is not known");
-                self.report.instead(text, "the texture is read as sRGB", params.span);
-                ColorSpace::Srgb
-            }
-        };
-        // Version 3.
-        let color_space = if params.truth("gamma") == Some(false) { ColorSpace::Linear } else { color_space };
-        let wrap = match params.text("wrap") {
-            None | Some("repeat") => Wrap::Repeat,
-            Some("clamp") => Wrap::Clamp,
-            Some(other) => {
-                let text = format!("the wrap mode `{other}` is not rendered");
-                self.report.instead(text, "the border's texels are repeated", params.span);
-                Wrap::Clamp
-            }
-        };
-        let filter = match params.text("filter") {
-            Some("point") => TextureFilter::Nearest,
-            Some("trilinear" | "ewa") => TextureFilter::Trilinear,
-            _ => TextureFilter::Bilinear,
-        };
-        params.ignore(&["maxanisotropy", "trilinear"]);
-        let unusual =
-            params.number("scale").is_some_and(|s| s != 1.0) || params.truth("invert") == Some(true);
-        if unusual {
-            let text = "a scaled or inverted image is not rendered";
-            self.report.instead(text, "it is taken as it is", params.span);
-        }
-        let file = Sourced::at(path, file.span);
-        let image = Image {
-            color_space,
-            wrap: [wrap; 2],
-            filter,
-            mapping: Mapping::Uv { set: 0, scale, rotation: 0.0, offset },
-            ..Image::new(ImageSource::File(file))
-        };
-        Some(self.add_texture(name, Texture::Image(image), params.span))
-    }
-
-    fn add_texture(&mut self, name: &str, texture: Texture, span: Span) -> ColorDesc {
-        let key = crate::names::free_name(&self.desc.textures, name);
+    pub(super) fn add_texture(&mut self, name: &str, texture: Texture, span: Span) -> ColorDesc {
+        let key = free_name(&self.desc.textures, name);
         self.desc.textures.insert(key.clone(), Sourced::at(texture, span));
         ColorDesc::Texture(Sourced::at(key, span))
+    }
+
+    /// Whether a texture or one that it is made of lies by the surface's own coordinates.
+    pub(super) fn lies_by_uv(&self, name: &str) -> bool {
+        let mut open = vec![name];
+        let mut seen = HashSet::new();
+        while let Some(name) = open.pop() {
+            let Some(texture) = self.desc.textures.get(name).filter(|_| seen.insert(name)) else { continue };
+            match &texture.value {
+                Texture::Image(Image { mapping: Mapping::Uv { .. }, .. })
+                | Texture::Checker { mapping: Mapping::Uv { .. }, .. }
+                | Texture::Dots { mapping: Mapping::Uv { .. }, .. } => return true,
+                other => open.extend(other.parts().into_iter().map(|part| part.value.as_str())),
+            }
+        }
+        false
+    }
+}
+
+/// A number as a colour.
+pub(super) fn grey(value: FloatDesc) -> ColorDesc {
+    match value {
+        FloatDesc::Value(x) => ColorDesc::Rgb([x; 3]),
+        FloatDesc::Texture(name) => ColorDesc::Texture(name),
+    }
+}
+
+/// A colour as a number: the mean of its channels.
+pub(super) fn number(color: ColorDesc) -> FloatDesc {
+    match color {
+        ColorDesc::Rgb(rgb) => FloatDesc::Value(rgb.iter().sum::<f32>() / 3.0),
+        ColorDesc::Texture(name) => FloatDesc::Texture(name),
     }
 }
