@@ -1,98 +1,117 @@
-use std::array::from_fn;
 use std::sync::LazyLock;
 
 use math::Vec3;
 
-use crate::facets::{along, mean_along};
-use crate::fresnel::fresnel_dielectric;
-use crate::ggx_albedo::{
-    ALPHA_NODES, MEAN_NODES, Place, Rows, TAU_NODES, alpha_node, for_each_sample, hemispherical_mean, lerp,
-    locate, locate_alpha,
-};
+use crate::fresnel::{fresnel_dielectric, fresnel_dielectric_mean};
+use crate::ggx::{Ggx, half};
+use crate::table::{Law, Places, Table, locate, points, tau, two};
 
-/// Nodes in (η − 1)/(η + 1), evenly spaced over [0, [`T_MAX`]].
-const ETA_NODES: usize = 16;
 /// Greatest index that the table covers.
 pub(crate) const ETA_MAX: f32 = 4.0;
 const T_MAX: f32 = (ETA_MAX - 1.0) / (ETA_MAX + 1.0);
+/// Quadrature points of one value.
+const POINTS: usize = 512;
 
-/// Directional albedo E(μ, α, η) of a single reflection off a rough dielectric of relative index η ≥ 1, exact
-/// Fresnel included, tabulated at first use (some tens of milliseconds) as its ratio to F(μ, η), which is
-/// interpolated linearly in τ and √α (see [`crate::ggx_albedo`]) and (η − 1)/(η + 1).
-pub(crate) struct Table {
-    ratios: Vec<Rows>,
-    means: Vec<[f32; MEAN_NODES]>,
+/// Directional albedo E(w) of a single reflection off a rough dielectric of relative index η ≥ 1, exact Fresnel included, as its
+/// ratio to F(μ, η).
+#[derive(Clone, Copy)]
+struct CoatAlbedo {
+    eta: f32,
 }
 
-static TABLE: LazyLock<Table> = LazyLock::new(Table::compute);
+static TABLE: LazyLock<Table<CoatAlbedo>> = LazyLock::new(Table::new);
 
-impl Table {
-    /// The table.
-    #[inline]
-    pub fn get() -> &'static Self {
-        &TABLE
+impl Law for CoatAlbedo {
+    /// In the root of (η − 1)/(η + 1).
+    const NODES: usize = 48;
+
+    fn node(i: usize) -> Self {
+        let t = T_MAX * (i as f32 / (Self::NODES - 1) as f32).powi(2);
+        // A ratio has a limit as η goes to 1.
+        Self { eta: ((1.0 + t) / (1.0 - t)).max(1.0 + 1e-4) }
     }
 
-    fn compute() -> Self {
-        let etas: [f32; ETA_NODES] = from_fn(|i| {
-            let t = T_MAX * i as f32 / (ETA_NODES - 1) as f32;
-            (1.0 + t) / (1.0 - t)
-        });
-        let mut ratios = vec![[[0.0; TAU_NODES]; ALPHA_NODES]; ETA_NODES];
-        for a in 0..ALPHA_NODES {
-            for t in 0..TAU_NODES {
-                let mut sums = [0.0; ETA_NODES];
-                let (mu, n) = for_each_sample(t, alpha_node(a, ALPHA_NODES), |w, cos_h| {
-                    if w > 0.0 {
-                        for (sum, &eta) in sums.iter_mut().zip(&etas) {
-                            *sum += f64::from(w * fresnel_dielectric(cos_h, eta));
-                        }
+    fn place(self) -> Places {
+        two(locate(((self.eta - 1.0).max(0.0) / ((self.eta + 1.0) * T_MAX)).sqrt(), Self::NODES))
+    }
+
+    /// Fresnel's reflectance rises below μ ≈ √(η² − 1).
+    fn coordinate(self, mu: f32, alpha: f32) -> f32 {
+        0.5 * (tau(mu, alpha) + tau(mu, (self.eta * self.eta - 1.0).max(1e-4).sqrt()))
+    }
+
+    fn value(self, alpha: [f32; 2], w: Vec3) -> f32 {
+        albedo(alpha, w, self.eta, POINTS) / fresnel_dielectric(w.z, self.eta)
+    }
+
+    fn weight(self, mu: f32) -> f32 {
+        fresnel_dielectric(mu, self.eta) / fresnel_dielectric_mean(self.eta).max(1e-12)
+    }
+
+    fn table() -> &'static Table<Self> {
+        &TABLE
+    }
+}
+
+/// E(w).
+pub(crate) fn coat_albedo(w: Vec3, alpha: [f32; 2], eta: f32) -> f32 {
+    let f = fresnel_dielectric(w.z.abs(), eta);
+    if f == 0.0 {
+        return 0.0;
+    }
+    (CoatAlbedo::table().at(CoatAlbedo { eta }, w, alpha) * f).clamp(0.0, 1.0)
+}
+
+/// (1/π)∫E(w) cos dω.
+pub(crate) fn coat_albedo_mean(alpha: [f32; 2], eta: f32) -> f32 {
+    let f = fresnel_dielectric_mean(eta);
+    if f == 0.0 { 0.0 } else { CoatAlbedo::table().mean(CoatAlbedo { eta }, alpha) * f }
+}
+
+fn albedo(alpha: [f32; 2], w: Vec3, eta: f32, n: usize) -> f32 {
+    let ggx = Ggx::xy(alpha);
+    let of = |u| {
+        let wi = ggx.sample(w, u);
+        if wi.z <= 0.0 {
+            return 0.0;
+        }
+        f64::from(ggx.weight(w, wi).min(1.0) * fresnel_dielectric(w.dot(half(w, wi)).clamp(0.0, 1.0), eta))
+    };
+    (points(n).map(of).sum::<f64>() / n as f64) as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn interpolation_is_within_half_a_percent() {
+        for eta in [1.01, 1.05, 1.33, 1.5, 2.5] {
+            for alpha in [[1e-3; 2], [0.1; 2], [0.4; 2], [1.0; 2], [0.6, 0.1], [0.05, 0.4]] {
+                for mu in [0.01, 0.05, 0.2, 0.5, 0.9] {
+                    for phi in [0.2, 1.3] {
+                        let w = math::spherical_direction(mu, phi);
+                        let (exact, table) = (albedo(alpha, w, eta, 10_000), coat_albedo(w, alpha, eta));
+                        assert!((exact - table).abs() < 0.005, "{eta} {alpha:?} {mu} {phi}: {exact} {table}");
                     }
-                });
-                for ((rows, sum), &eta) in ratios.iter_mut().zip(sums).zip(&etas) {
-                    let f = fresnel_dielectric(mu, eta);
-                    rows[a][t] = if f > 0.0 { (sum / n) as f32 / f } else { 1.0 };
                 }
             }
         }
-        let mean = |rows: &Rows, eta: f32, alpha: f32| {
-            hemispherical_mean(|mu| Place::new(mu, alpha).of(rows) * fresnel_dielectric(mu, eta))
-        };
-        let means = ratios
-            .iter()
-            .zip(etas)
-            .map(|(rows, eta)| from_fn(|a| mean(rows, eta, alpha_node(a, MEAN_NODES))))
-            .collect();
-        Self { ratios, means }
     }
 
-    fn locate_eta(eta: f32) -> (usize, f32) {
-        locate((eta - 1.0) / ((eta + 1.0) * T_MAX), ETA_NODES)
-    }
-
-    /// E(μ, α, η).
-    pub fn at(&self, mu: f32, alpha: f32, eta: f32) -> f32 {
-        let place = Place::new(mu, alpha);
-        let (e, fe) = Self::locate_eta(eta);
-        let ratio = lerp(place.of(&self.ratios[e]), place.of(&self.ratios[e + 1]), fe);
-        (ratio * fresnel_dielectric(mu, eta)).min(1.0)
-    }
-
-    /// E of an anisotropic surface: that of the isotropic one with the same slopes in the plane of incidence.
-    pub fn along(&self, w: Vec3, alpha: [f32; 2], eta: f32) -> f32 {
-        self.at(w.z.abs(), along(w, alpha), eta)
-    }
-
-    /// (1/π)∫ of [`Self::along`]·cos over the hemisphere.
-    pub fn mean_along(&self, alpha: [f32; 2], eta: f32) -> f32 {
-        mean_along(alpha, |alpha| self.mean(alpha, eta))
-    }
-
-    /// 2∫E(μ, α, η) μ dμ.
-    pub fn mean(&self, alpha: f32, eta: f32) -> f32 {
-        let (a, fa) = locate_alpha(alpha, MEAN_NODES);
-        let (e, fe) = Self::locate_eta(eta);
-        let row = |r: &[f32; MEAN_NODES]| lerp(r[a], r[a + 1], fa);
-        lerp(row(&self.means[e]), row(&self.means[e + 1]), fe)
+    #[test]
+    fn means_are_those_of_a_finer_quadrature() {
+        for (alpha, eta) in [([0.1; 2], 1.5), ([0.8; 2], 1.1), ([0.5, 0.1], 2.0)] {
+            let n = 4000;
+            let exact = points(n)
+                .map(|[u, v]| {
+                    let w = math::spherical_direction(u * u, std::f32::consts::FRAC_PI_2 * v);
+                    f64::from(4.0 * u * u * u * albedo(alpha, w, eta, 400))
+                })
+                .sum::<f64>()
+                / n as f64;
+            let table = f64::from(coat_albedo_mean(alpha, eta));
+            assert!((exact - table).abs() < 1e-3, "{alpha:?} {eta}: {exact} {table}");
+        }
     }
 }

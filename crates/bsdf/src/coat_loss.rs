@@ -1,33 +1,32 @@
-use std::array::from_fn;
 use std::sync::LazyLock;
 
 use math::Vec3;
 
-use crate::coat_albedo::ETA_MAX;
+use crate::coat_albedo::{ETA_MAX, coat_albedo};
 use crate::facets::half_reflected;
 use crate::fresnel::fresnel_dielectric;
-use crate::ggx::{ALPHA_MIN, Ggx};
-use crate::ggx_albedo::{lerp, locate};
+use crate::ggx::Ggx;
+use crate::table::{Law, Places, Table, locate, points, tau};
 
-/// Nodes in √μ, in √α and in (η − 1)/(η + 1).
-const MU: usize = 24;
-const ALPHA: usize = 14;
-const ETA: usize = 10;
 const T_MAX: f32 = (ETA_MAX - 1.0) / (ETA_MAX + 1.0);
-/// Quadrature points per node and dimension.
-const POINTS: usize = 20;
-const MEAN_POINTS: usize = 96;
+/// Nodes in the root of (η − 1)/(η + 1).
+const ETAS: usize = 32;
+/// Nodes in ln α of the coat.
+const COATS: usize = 12;
+/// α of the first of them, which stands for smooth coats.
+const COAT_MIN: f32 = 1e-3;
+/// Quadrature points of one value.
+const POINTS: usize = 512;
 
-/// Of the light that enters a smooth coat of index η over a white GGX surface of roughness α from the direction μ: the
-/// share that one reflection off the surface does not send out again, after all mirror-like interreflection
-/// (see [`crate::coated_conductor`]). Tabulated at first use (about 0.1 s), interpolated linearly in √μ, √α and
-/// (η − 1)/(η + 1).
-pub(crate) struct CoatLoss {
-    losses: Vec<[[f32; MU]; ALPHA]>,
-    means: Vec<[f32; ALPHA]>,
+/// Of the light that enters a coat of index η over a white GGX surface from the direction `w`: the share that one
+/// reflection off the surface does not send out again, after all mirror-like interreflection (see [`crate::coated_conductor`]).
+#[derive(Clone, Copy)]
+struct CoatLoss {
+    eta: f32,
+    coat_alpha: f32,
 }
 
-static LOSS: LazyLock<CoatLoss> = LazyLock::new(CoatLoss::compute);
+static TABLE: LazyLock<Table<CoatLoss>> = LazyLock::new(Table::new);
 
 /// The direction inside a coat that leads to `w` outside (both point away from the base).
 #[inline]
@@ -45,85 +44,73 @@ pub(crate) fn outside(w: Vec3, eta: f32) -> Option<Vec3> {
 }
 
 impl CoatLoss {
-    /// The table.
-    pub fn get() -> &'static Self {
-        &LOSS
-    }
-
-    fn compute() -> Self {
-        let s = ALPHA_MIN.sqrt();
-        let losses: Vec<[[f32; MU]; ALPHA]> = (0..ETA)
-            .map(|e| {
-                let t = T_MAX * e as f32 / (ETA - 1) as f32;
-                let eta = (1.0 + t) / (1.0 - t);
-                from_fn(|a| {
-                    let alpha = (s + (1.0 - s) * a as f32 / (ALPHA - 1) as f32).powi(2);
-                    from_fn(|m| loss((m as f32 / (MU - 1) as f32).powi(2).max(1e-4), alpha, eta, POINTS))
-                })
-            })
-            .collect();
-        let mut table = Self { losses, means: Vec::new() };
-        table.means = (0..ETA)
-            .map(|e| {
-                let t = T_MAX * e as f32 / (ETA - 1) as f32;
-                let eta = (1.0 + t) / (1.0 - t);
-                from_fn(|a| {
-                    let alpha = (s + (1.0 - s) * a as f32 / (ALPHA - 1) as f32).powi(2);
-                    table.integrate(alpha, eta)
-                })
-            })
-            .collect();
-        table
-    }
-
-    fn integrate(&self, alpha: f32, eta: f32) -> f32 {
-        let mut sum = 0.0;
-        for i in 0..MEAN_POINTS {
-            let t = (i as f32 + 0.5) / MEAN_POINTS as f32;
-            let mu = t * t;
-            let enters = 1.0 - fresnel_dielectric(mu, eta);
-            sum += f64::from(4.0 * mu * t * enters * self.at(mu, alpha, eta));
+    fn enters(self, mu: f32) -> f32 {
+        1.0 - if self.coat_alpha == 0.0 {
+            fresnel_dielectric(mu, self.eta)
+        } else {
+            coat_albedo(Vec3::new((1.0 - mu * mu).max(0.0).sqrt(), 0.0, mu), [self.coat_alpha; 2], self.eta)
         }
-        (sum / MEAN_POINTS as f64) as f32
-    }
-
-    fn place(alpha: f32, eta: f32) -> [(usize, f32); 2] {
-        let s = ALPHA_MIN.sqrt();
-        let a = locate((alpha.max(ALPHA_MIN).sqrt() - s) / (1.0 - s), ALPHA);
-        [a, locate((eta - 1.0) / ((eta + 1.0) * T_MAX), ETA)]
-    }
-
-    /// The share lost.
-    pub fn at(&self, mu: f32, alpha: f32, eta: f32) -> f32 {
-        let (m, fm) = locate(mu.max(0.0).sqrt(), MU);
-        let [(a, fa), (e, fe)] = Self::place(alpha, eta);
-        let of = |n: &[[f32; MU]; ALPHA]| {
-            lerp(lerp(n[a][m], n[a][m + 1], fm), lerp(n[a + 1][m], n[a + 1][m + 1], fm), fa)
-        };
-        lerp(of(&self.losses[e]), of(&self.losses[e + 1]), fe)
-    }
-
-    /// 2∫(1 − F(μ))·loss μ dμ: what is lost of diffuse light, never 0.
-    pub fn mean(&self, alpha: f32, eta: f32) -> f32 {
-        let [(a, fa), (e, fe)] = Self::place(alpha, eta);
-        let row = |n: &[f32; ALPHA]| lerp(n[a], n[a + 1], fa);
-        lerp(row(&self.means[e]), row(&self.means[e + 1]), fe).max(1e-9)
     }
 }
 
-/// By a quadrature over the numbers of the sampler.
-fn loss(mu: f32, alpha: f32, eta: f32, n: usize) -> f32 {
-    let ggx = Ggx::new(alpha);
-    let wo = inside(Vec3::new((1.0 - mu * mu).max(0.0).sqrt(), 0.0, mu), eta);
-    let enters = 1.0 - fresnel_dielectric(mu, eta);
-    let mut sum = 0.0;
-    for i in 0..n * n {
-        let at = |k: usize| (k as f32 + 0.5) / n as f32;
-        let wi = ggx.sample(wo, [at(i / n), at(i % n)]);
-        if let Some(out) = outside(wi, eta).filter(|_| wo.dot(half_reflected(wo, wi)) > 0.0) {
-            let leaves = 1.0 - fresnel_dielectric(out.z, eta);
-            sum += f64::from(ggx.weight(wo, wi).min(1.0) * (leaves / enters.max(1e-9)).min(1.0));
-        }
+impl Law for CoatLoss {
+    const NODES: usize = ETAS * COATS;
+
+    fn node(i: usize) -> Self {
+        let t = T_MAX * ((i % ETAS) as f32 / (ETAS - 1) as f32).powi(2);
+        let coat = i / ETAS;
+        let coat_alpha = COAT_MIN.powf(1.0 - coat as f32 / (COATS - 1) as f32);
+        Self { eta: (1.0 + t) / (1.0 - t), coat_alpha: if coat == 0 { 0.0 } else { coat_alpha } }
     }
-    (1.0 - sum / (n * n) as f64).clamp(0.0, 1.0) as f32
+
+    fn place(self) -> Places {
+        let (e, fe) = locate(((self.eta - 1.0).max(0.0) / ((self.eta + 1.0) * T_MAX)).sqrt(), ETAS);
+        let (c, fc) = locate(1.0 - self.coat_alpha.max(COAT_MIN).ln() / COAT_MIN.ln(), COATS);
+        let i = c * ETAS + e;
+        [
+            (i, (1.0 - fe) * (1.0 - fc)),
+            (i + 1, fe * (1.0 - fc)),
+            (i + ETAS, (1.0 - fe) * fc),
+            (i + ETAS + 1, fe * fc),
+        ]
+    }
+
+    /// Near grazing cosθ′ changes with the square of μ.
+    fn coordinate(self, mu: f32, alpha: f32) -> f32 {
+        0.5 * (tau(mu, alpha) + tau(mu, alpha.sqrt()))
+    }
+
+    fn value(self, alpha: [f32; 2], w: Vec3) -> f32 {
+        let ggx = Ggx::xy(alpha);
+        let wo = inside(w, self.eta);
+        let enters = self.enters(w.z);
+        let of = |u| {
+            let wi = ggx.sample(wo, u);
+            let Some(out) = outside(wi, self.eta).filter(|_| wo.dot(half_reflected(wo, wi)) > 0.0) else {
+                return 1.0;
+            };
+            1.0 - f64::from(ggx.weight(wo, wi).min(1.0) * (self.enters(out.z) / enters.max(1e-9)).min(1.0))
+        };
+        ((points(POINTS).map(of).sum::<f64>() / POINTS as f64) as f32).clamp(0.0, 1.0)
+    }
+
+    fn weight(self, mu: f32) -> f32 {
+        self.enters(mu)
+    }
+
+    fn table() -> &'static Table<Self> {
+        &TABLE
+    }
+}
+
+/// The share lost. `coat_alpha` 0: a smooth coat.
+#[inline]
+pub(crate) fn coat_loss(w: Vec3, alpha: [f32; 2], eta: f32, coat_alpha: f32) -> f32 {
+    CoatLoss::table().at(CoatLoss { eta, coat_alpha }, w, alpha).clamp(0.0, 1.0)
+}
+
+/// (1/π)∫(1 − E_coat(w))·loss cos dω: what is lost of diffuse light, never 0.
+#[inline]
+pub(crate) fn coat_loss_mean(alpha: [f32; 2], eta: f32, coat_alpha: f32) -> f32 {
+    CoatLoss::table().mean(CoatLoss { eta, coat_alpha }, alpha).max(1e-9)
 }

@@ -2,16 +2,15 @@ use color::Lanes;
 use math::{FRAC_1_PI, PI, Vec3};
 
 use crate::bsdf::{BsdfSample, DeltaLobe};
-use crate::coat_albedo::Table;
-use crate::coat_loss::{CoatLoss, inside, outside};
+use crate::coat_albedo::{coat_albedo, coat_albedo_mean};
+use crate::coat_loss::{coat_loss, coat_loss_mean, inside, outside};
 use crate::conductor::GLOSSY;
 use crate::cosine::cosine_hemisphere;
 use crate::diffuse;
-use crate::facets::{Facets, Micro, half_reflected, is_smooth, isotropic};
+use crate::facet_loss::{facet_loss, facet_loss_mean};
+use crate::facets::{Facets, Micro, half_reflected, is_smooth};
 use crate::fresnel::{fresnel_dielectric, fresnel_dielectric_mean};
-use crate::ggx::ALPHA_MIN;
-use crate::ggx_albedo::Loss;
-use crate::glass_albedo::GlassLoss;
+use crate::glass_loss::{glass_loss, glass_loss_mean};
 use crate::lobes::Lobes;
 use crate::mirror;
 use crate::plastic;
@@ -26,7 +25,7 @@ use crate::reflectance::Reflectance;
 /// The second term is exact for one reflection off the metal under a smooth coat (f cosθ dω is carried through
 /// refraction), and the last factor sums the interreflections as those of mirrors: exact as the roughness vanishes. What a
 /// wide lobe leaves inside (total reflection, masking) comes out in f_further = M(o) M(i)/(π M_mean) · C, M = T·(loss of
-/// [`CoatLoss`]), built as by Kulla & Conty (2017) so that a white base under a clear coat returns all light. A rough coat widens
+/// [`crate::coat_loss`]), built as by Kulla & Conty (2017) so that a white base under a clear coat returns all light. A rough coat widens
 /// the base's lobe: α² + (1 − 1/η)² α_c²/2, the variances of slopes added at first order (compare Belcour 2018, §4).
 ///
 /// Against a random walk through the layers, which is what pbrt-v4 renders (measured in `tests/random_walk.rs`, gold, with the walk's
@@ -49,8 +48,13 @@ pub(crate) struct CoatedConductor {
     pub further: Lanes,
 }
 
-/// About the mean cosine at which light from outside meets the base.
-const INNER_COSINE: f32 = 0.88;
+/// About the mean direction from which light from outside meets the base: a cosine of 0.88, half-way between the axes.
+const INNER: Vec3 = Vec3::new(0.336, 0.336, 0.88);
+
+/// A direction of this cosine.
+fn at_cosine(mu: f32) -> Vec3 {
+    Vec3::new((1.0 - mu * mu).max(0.0).sqrt(), 0.0, mu)
+}
 
 /// Roughness of a base of roughness `alpha` seen through a coat of roughness `coat`.
 pub(crate) fn seen_through(alpha: [f32; 2], coat: f32, eta: f32) -> [f32; 2] {
@@ -96,14 +100,14 @@ impl CoatedConductor {
         let (first, kept) = match self.facets {
             Facets::Conserving => (1.0, 1.0),
             Facets::SingleBounce | Facets::Beckmann => {
-                let (alpha, loss) = (isotropic(self.alpha), Loss::get());
-                let m = CoatLoss::get().mean(alpha, self.eta) / (1.0 - fresnel_dielectric_mean(self.eta));
-                let total = (m - loss.at(INNER_COSINE, alpha)).max(0.0) / m.max(1e-6);
-                let kept = 1.0 - loss.mean(alpha);
+                let m = coat_loss_mean(self.alpha, self.eta, 0.0) / (1.0 - fresnel_dielectric_mean(self.eta));
+                let first = facet_loss(INNER, self.alpha);
+                let total = (m - first).max(0.0) / m.max(1e-6);
+                let kept = 1.0 - facet_loss_mean(self.alpha);
                 match self.coat_alpha {
                     0.0 => (total.min(1.0) * kept, kept),
                     coat => {
-                        let kept = kept * (1.0 - GlassLoss::mean(coat, 1.0 / self.eta));
+                        let kept = kept * (1.0 - glass_loss_mean([coat; 2], 1.0 / self.eta));
                         (total.min(1.0) * kept, kept)
                     }
                 }
@@ -124,7 +128,7 @@ impl CoatedConductor {
         if self.coat_alpha == 0.0 {
             fresnel_dielectric(mu, self.eta)
         } else {
-            Table::get().at(mu, self.coat_alpha, self.eta)
+            coat_albedo(at_cosine(mu), [self.coat_alpha; 2], self.eta)
         }
     }
 
@@ -135,26 +139,24 @@ impl CoatedConductor {
         if self.coat_alpha == 0.0 || self.facets == Facets::Conserving {
             return e;
         }
-        (e - GlassLoss::at(mu, self.coat_alpha, self.eta)).max(0.0)
+        (e - glass_loss(at_cosine(mu), [self.coat_alpha; 2], self.eta)).max(0.0)
     }
 
-    /// M(μ).
+    /// M(w).
     #[inline]
-    fn lost(&self, mu: f32) -> f32 {
-        self.enters(mu) * CoatLoss::get().at(mu, isotropic(self.alpha), self.eta)
+    fn lost(&self, w: Vec3) -> f32 {
+        self.enters(w.z) * coat_loss(w, self.alpha, self.eta, self.coat_alpha)
     }
 
-    /// 2∫M(μ) μ dμ: the table is of smooth coats; what enters a rough one is more or less.
+    /// (1/π)∫M(w) cos dω: the table is of conserving coats.
     fn lost_mean(&self) -> f32 {
-        let mean = CoatLoss::get().mean(isotropic(self.alpha), self.eta);
-        if self.coat_alpha == 0.0 {
+        let mean = coat_loss_mean(self.alpha, self.eta, self.coat_alpha);
+        if self.coat_alpha == 0.0 || self.facets == Facets::Conserving {
             return mean;
         }
-        let mut enters = 1.0 - Table::get().mean(self.coat_alpha, self.eta);
-        if self.facets != Facets::Conserving {
-            enters -= GlassLoss::mean(self.coat_alpha, self.eta);
-        }
-        mean * enters / (1.0 - fresnel_dielectric_mean(self.eta))
+        let coat = [self.coat_alpha; 2];
+        let enters = 1.0 - coat_albedo_mean(coat, self.eta);
+        mean * (enters - glass_loss_mean(coat, self.eta)).max(0.0) / enters
     }
 
     #[inline]
@@ -182,7 +184,7 @@ impl CoatedConductor {
             let h = half_reflected(o, i);
             let dv = self.micro().reflection(o, i, h) / (self.eta * self.eta);
             f += self.passes(wo.z, wi.z, self.reflectance.at(o.dot(h)), o.z, i.z) * dv;
-            f += self.further * (self.lost(wo.z) * self.lost(wi.z));
+            f += self.further * (self.lost(wo) * self.lost(wi));
         }
         f
     }
@@ -200,7 +202,7 @@ impl CoatedConductor {
         if self.smooth_base() {
             delta += (1.0 - e) * r;
         } else {
-            let lost = self.lost(wo.z);
+            let lost = self.lost(wo);
             glossy[1] = (1.0 - e - lost).max(0.0) * r;
             glossy[2] = lost * self.further.max() * PI * self.lost_mean();
         }
@@ -284,16 +286,15 @@ impl CoatedConductor {
     }
 
     /// Directional albedo, the metal's Fresnel reflectance taken at the mirror's angle.
-    pub fn albedo(&self, cos_o: f32) -> Lanes {
+    pub fn albedo(&self, wo: Vec3) -> Lanes {
+        let cos_o = wo.z;
         let e = self.coat(cos_o);
-        let inner = inside(Vec3::new((1.0 - cos_o * cos_o).max(0.0).sqrt(), 0.0, cos_o), self.eta).z;
+        let inner = inside(wo, self.eta).z;
         let base = self.passes(cos_o, cos_o, self.reflectance.at(inner), inner, inner);
         if self.smooth_base() {
             return Lanes::splat(e) + base;
         }
-        let alpha = isotropic(self.alpha).max(ALPHA_MIN);
-        let loss = CoatLoss::get();
-        let further = self.further * (self.lost(cos_o) * PI * self.lost_mean());
-        Lanes::splat(e) + base * (1.0 - loss.at(cos_o, alpha, self.eta)) + further
+        let further = self.further * (self.lost(wo) * PI * self.lost_mean());
+        Lanes::splat(e) + base * (1.0 - coat_loss(wo, self.alpha, self.eta, self.coat_alpha)) + further
     }
 }

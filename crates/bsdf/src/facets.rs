@@ -1,11 +1,8 @@
-use std::f32::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
-
 use math::{PI, Vec3, spherical_direction};
 
 use crate::beckmann::Beckmann;
+use crate::facet_loss::{facet_loss, facet_loss_mean};
 use crate::ggx::{ALPHA_MIN, Ggx, half};
-use crate::ggx_albedo::Loss;
-use crate::ggx_albedo_xy::LossXy;
 
 /// How the microscopic surface of a rough kind is modelled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -105,8 +102,7 @@ impl Micro {
     #[inline]
     pub fn restored(&self, w: Vec3) -> f32 {
         match self {
-            Self::Conserving { alpha: [x, y], .. } if x == y => Loss::get().at(w.z.abs(), *x),
-            Self::Conserving { alpha, .. } => LossXy::at(w, *alpha),
+            Self::Conserving { alpha, .. } => facet_loss(w, *alpha),
             Self::SingleBounce(_) | Self::Beckmann(_) => 0.0,
         }
     }
@@ -114,8 +110,7 @@ impl Micro {
     /// (1/π)∫ of [`Self::restored`]·cos over the hemisphere, never 0, where anything is restored.
     pub fn restored_mean(&self) -> Option<f32> {
         match self {
-            Self::Conserving { alpha: [x, y], .. } if x == y => Some(Loss::get().mean(*x)),
-            Self::Conserving { alpha, .. } => Some(LossXy::mean(*alpha)),
+            Self::Conserving { alpha, .. } => Some(facet_loss_mean(*alpha)),
             Self::SingleBounce(_) | Self::Beckmann(_) => None,
         }
     }
@@ -127,35 +122,10 @@ pub(crate) fn is_smooth(alpha: [f32; 2]) -> bool {
     alpha == [0.0; 2]
 }
 
-/// The isotropic roughness that stands for an anisotropic one in tables: the root mean square, which gives the mean slope of
-/// facets and hence the loss at steep angles.
+/// The isotropic roughness that stands for an anisotropic one in the sampling of wide lobes: the root mean square.
 #[inline]
 pub(crate) fn isotropic([x, y]: [f32; 2]) -> f32 {
     if x == y { x } else { (0.5 * (x * x + y * y)).sqrt().max(ALPHA_MIN) }
-}
-
-/// The isotropic roughness that stands for an anisotropic one in tables, for the direction `w`: that of the facets' slopes
-/// in the plane of incidence at grazing angles, √((αx² + αy²)/2) where no azimuth is special.
-#[inline]
-pub(crate) fn along(w: Vec3, [x, y]: [f32; 2]) -> f32 {
-    if x == y {
-        return x;
-    }
-    let [x2, y2] = [x, y].map(|a| a.clamp(ALPHA_MIN, 1.0).powi(2));
-    (x2 * w.x * w.x + y2 * w.y * w.y + 0.5 * (x2 + y2) * w.z * w.z).sqrt()
-}
-
-/// Mean over azimuths of what depends on [`along`], at the root mean square of the cosine.
-pub(crate) fn mean_along(alpha: [f32; 2], f: impl Fn(f32) -> f32) -> f32 {
-    if alpha[0] == alpha[1] {
-        return f(alpha[0]);
-    }
-    const AZIMUTHS: usize = 6;
-    let at = |i: usize| {
-        let (s, c) = (FRAC_PI_2 * (i as f32 + 0.5) / AZIMUTHS as f32).sin_cos();
-        f(along(Vec3::new(c, s, 1.0) * FRAC_1_SQRT_2, alpha))
-    };
-    (0..AZIMUTHS).map(at).sum::<f32>() / AZIMUTHS as f32
 }
 
 /// The half vector of a refraction, on the side of `wo`: `eta` is the index on the side of `wi` over that on the side of

@@ -18,12 +18,6 @@ pub(crate) fn half(wo: Vec3, wi: Vec3) -> Vec3 {
 }
 
 impl Ggx {
-    /// Isotropic.
-    #[inline]
-    pub fn new(alpha: f32) -> Self {
-        Self::xy([alpha; 2])
-    }
-
     #[inline]
     pub fn xy(alpha: [f32; 2]) -> Self {
         let [ax, ay] = alpha.map(|a| a.clamp(ALPHA_MIN, 1.0));

@@ -3,11 +3,11 @@ use math::{FRAC_1_PI, Vec3};
 
 use crate::bsdf::{BsdfSample, DeltaLobe};
 use crate::facets::{
-    Micro, along, further_pdf_w, half_reflected, half_refracted, isotropic, mean_along, sample_further,
+    Micro, further_pdf_w, half_reflected, half_refracted, isotropic, sample_further,
 };
 use crate::film::Film;
 use crate::fresnel::{fresnel_dielectric, refracted_cosine};
-use crate::glass_albedo::{GlassLoss, refract};
+use crate::glass_loss::{glass_loss, glass_loss_mean, refract};
 use crate::lobes::{Lobes, TransportMode};
 use crate::mirror;
 use crate::reflectance::Reflectance;
@@ -57,7 +57,7 @@ pub(crate) struct Glass {
 pub(crate) fn means(micro: &Micro, eta: f32) -> [f32; 2] {
     match micro {
         Micro::Conserving { alpha, .. } => {
-            [eta, 1.0 / eta].map(|eta| mean_along(*alpha, |a| GlassLoss::mean(a, eta)))
+            [eta, 1.0 / eta].map(|eta| glass_loss_mean(*alpha, eta))
         }
         Micro::SingleBounce(_) | Micro::Beckmann(_) => [0.0; 2],
     }
@@ -97,7 +97,7 @@ impl Glass {
     #[inline]
     fn loss(&self, w: Vec3) -> f32 {
         let eta = if w.z > 0.0 { self.eta } else { 1.0 / self.eta };
-        GlassLoss::at(w.z.abs(), along(w, self.alpha), eta)
+        glass_loss(w, self.alpha, eta)
     }
 
     /// Sum of mean losses, the far side weighted by η².

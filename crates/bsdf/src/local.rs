@@ -252,7 +252,7 @@ impl Local {
             BsdfKind::Sheen { color, alpha } => color * Sheen::new(alpha).albedo(wo.z),
             BsdfKind::ThinDielectric { .. } => self.thin().albedo(wo.z),
             BsdfKind::RoughDielectric { .. } => self.glass().albedo(wo.z),
-            BsdfKind::CoatedConductor { .. } => self.coated_conductor().albedo(wo.z),
+            BsdfKind::CoatedConductor { .. } => self.coated_conductor().albedo(wo),
             BsdfKind::Principled(p) => Slab::new(&p, self.side, self.prepared).albedo(wo),
             BsdfKind::Null => Lanes::ONE,
             BsdfKind::Black => Lanes::ZERO,

@@ -2,13 +2,13 @@ use color::Lanes;
 use math::{FRAC_1_PI, Vec3};
 
 use crate::bsdf::{BsdfSample, DeltaLobe};
-use crate::coat_albedo::{ETA_MAX, Table};
+use crate::coat_albedo::{ETA_MAX, coat_albedo, coat_albedo_mean};
 use crate::conductor::GLOSSY;
 use crate::cosine::cosine_hemisphere;
 use crate::diffuse;
-use crate::facets::{Facets, Micro, along, half_reflected, is_smooth, mean_along};
+use crate::facets::{Facets, Micro, half_reflected, is_smooth};
 use crate::fresnel::{fresnel_dielectric, fresnel_dielectric_mean};
-use crate::glass_albedo::GlassLoss;
+use crate::glass_loss::{glass_loss, glass_loss_mean};
 use crate::lobes::Lobes;
 use crate::mirror;
 
@@ -39,7 +39,7 @@ pub(crate) fn clamped(eta: f32) -> f32 {
 
 /// 1 − E_mean of the coat.
 fn one_minus_mean(eta: f32, alpha: [f32; 2]) -> f32 {
-    1.0 - if is_smooth(alpha) { fresnel_dielectric_mean(eta) } else { Table::get().mean_along(alpha, eta) }
+    1.0 - if is_smooth(alpha) { fresnel_dielectric_mean(eta) } else { coat_albedo_mean(alpha, eta) }
 }
 
 /// Whether facets of the coat lose what bounces more than once.
@@ -61,7 +61,7 @@ const BECKMANN_TO_GGX: f32 = 0.45;
 /// Means of single bounces at the coat: what it lets in, and what it reflects of light from within (whose part let out is
 /// the first over η², as étendue is kept).
 fn single_means(eta: f32, alpha: [f32; 2]) -> (f32, f32) {
-    let mean = |eta: f32| mean_along(alpha, |a| GlassLoss::mean(a, eta));
+    let mean = |eta: f32| glass_loss_mean(alpha, eta);
     let enters = one_minus_mean(eta, alpha) - mean(eta);
     (enters, 1.0 - enters / (eta * eta) - mean(1.0 / eta))
 }
@@ -127,7 +127,7 @@ impl Plastic {
         if is_smooth(self.alpha) {
             fresnel_dielectric(w.z, self.eta)
         } else {
-            Table::get().along(w, tabulated(self.facets, self.alpha), self.eta)
+            coat_albedo(w, tabulated(self.facets, self.alpha), self.eta)
         }
     }
 
@@ -138,8 +138,7 @@ impl Plastic {
         if !loses(self.facets, self.alpha) {
             return e;
         }
-        let alpha = along(w, tabulated(self.facets, self.alpha));
-        (e - GlassLoss::at(w.z, alpha, self.eta)).max(0.0)
+        (e - glass_loss(w, tabulated(self.facets, self.alpha), self.eta)).max(0.0)
     }
 
     /// Lobe of the coat.

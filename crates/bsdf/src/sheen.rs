@@ -3,7 +3,7 @@ use std::sync::LazyLock;
 
 use math::{PI, Vec3};
 
-use crate::ggx_albedo::{lerp, locate};
+use crate::table::{lerp, locate};
 
 /// Least α in use: below it the fitted masking lets the model return more light than it gets at grazing angles.
 const ALPHA_MIN: f32 = 0.07;

@@ -2,7 +2,7 @@ use color::Lanes;
 use math::{FRAC_1_PI, Vec3};
 
 use crate::bsdf::BsdfSample;
-use crate::coat_albedo::{ETA_MAX, Table};
+use crate::coat_albedo::{ETA_MAX, coat_albedo, coat_albedo_mean};
 use crate::conductor::{self, Rough};
 use crate::cosine::cosine_hemisphere;
 use crate::diffuse;
@@ -142,7 +142,7 @@ impl Slab {
         if self.p.clearcoat == 0.0 {
             return 0.0;
         }
-        self.p.clearcoat * Table::get().at(mu, self.p.clearcoat_alpha, COAT_ETA)
+        self.p.clearcoat * coat_albedo(Vec3::new((1.0 - mu * mu).max(0.0).sqrt(), 0.0, mu), [self.p.clearcoat_alpha; 2], COAT_ETA)
     }
 
     fn sheen_albedo(&self, mu: f32) -> f32 {
@@ -152,7 +152,7 @@ impl Slab {
 
     /// What the dielectric over the diffuse base reflects.
     fn gloss_albedo(&self, w: Vec3) -> f32 {
-        self.tint().max() * Table::get().along(w, self.p.alpha, self.eta)
+        self.tint().max() * coat_albedo(w, self.p.alpha, self.eta)
     }
 
     /// Factor of what lies below sheen and coat.
@@ -170,7 +170,7 @@ impl Slab {
 
     /// (1 − E(o))(1 − E(i))/(π (1 − E_mean)) of the dielectric over the diffuse base.
     fn base_factor(&self, wo: Vec3, wi: Vec3) -> f32 {
-        let mean = self.tint().max() * Table::get().mean_along(self.p.alpha, self.eta);
+        let mean = self.tint().max() * coat_albedo_mean(self.p.alpha, self.eta);
         (1.0 - self.gloss_albedo(wo)) * (1.0 - self.gloss_albedo(wi)) * FRAC_1_PI / (1.0 - mean)
     }
 
@@ -329,7 +329,7 @@ impl Slab {
         if self.outer == Side::Back {
             return through;
         }
-        let e = Table::get().along(wo, self.p.alpha, self.eta);
+        let e = coat_albedo(wo, self.p.alpha, self.eta);
         let gloss = self.tint() * e;
         let dielectric = gloss + self.p.base_color * (1.0 - gloss.max());
         let below = through + self.metal.reflectance.at(cos_o) * self.p.metallic + dielectric * rest;
