@@ -4,14 +4,11 @@ use math::Vec3;
 
 use crate::fresnel::{fresnel_dielectric, fresnel_dielectric_mean};
 use crate::ggx::{Ggx, half};
-use crate::table::{Law, Places, Table, locate, points, tau, two};
+use crate::table::{Law, Places, Table, count, graded, locate, points, two};
 
 /// Greatest index that the table covers.
 pub(crate) const ETA_MAX: f32 = 4.0;
 const T_MAX: f32 = (ETA_MAX - 1.0) / (ETA_MAX + 1.0);
-/// Quadrature points of one value.
-const POINTS: usize = 512;
-
 /// Directional albedo E(w) of a single reflection off a rough dielectric of relative index η ≥ 1, exact Fresnel included, as its
 /// ratio to F(μ, η).
 #[derive(Clone, Copy)]
@@ -37,11 +34,11 @@ impl Law for CoatAlbedo {
 
     /// Fresnel's reflectance rises below μ ≈ √(η² − 1).
     fn coordinate(self, mu: f32, alpha: f32) -> f32 {
-        0.5 * (tau(mu, alpha) + tau(mu, (self.eta * self.eta - 1.0).max(1e-4).sqrt()))
+        0.5 * (graded(mu, alpha) + graded(mu, (self.eta * self.eta - 1.0).max(1e-4).sqrt()))
     }
 
     fn value(self, alpha: [f32; 2], w: Vec3) -> f32 {
-        albedo(alpha, w, self.eta, POINTS) / fresnel_dielectric(w.z, self.eta)
+        albedo(alpha, w, self.eta, count(alpha)) / fresnel_dielectric(w.z, self.eta)
     }
 
     fn weight(self, mu: f32) -> f32 {

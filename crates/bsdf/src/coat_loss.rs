@@ -6,7 +6,7 @@ use crate::coat_albedo::{ETA_MAX, coat_albedo};
 use crate::facets::half_reflected;
 use crate::fresnel::fresnel_dielectric;
 use crate::ggx::Ggx;
-use crate::table::{Law, Places, Table, locate, points, tau};
+use crate::table::{Law, Places, Table, count, graded, locate, points};
 
 const T_MAX: f32 = (ETA_MAX - 1.0) / (ETA_MAX + 1.0);
 /// Nodes in the root of (η − 1)/(η + 1).
@@ -15,9 +15,6 @@ const ETAS: usize = 32;
 const COATS: usize = 12;
 /// α of the first of them, which stands for smooth coats.
 const COAT_MIN: f32 = 1e-3;
-/// Quadrature points of one value.
-const POINTS: usize = 512;
-
 /// Of the light that enters a coat of index η over a white GGX surface from the direction `w`: the share that one
 /// reflection off the surface does not send out again, after all mirror-like interreflection (see [`crate::coated_conductor`]).
 #[derive(Clone, Copy)]
@@ -77,11 +74,11 @@ impl Law for CoatLoss {
 
     /// Near grazing cosθ′ changes with the square of μ.
     fn coordinate(self, mu: f32, alpha: f32) -> f32 {
-        0.5 * (tau(mu, alpha) + tau(mu, alpha.sqrt()))
+        0.5 * (graded(mu, alpha) + graded(mu, alpha.sqrt()))
     }
 
     fn value(self, alpha: [f32; 2], w: Vec3) -> f32 {
-        let ggx = Ggx::xy(alpha);
+        let (ggx, n) = (Ggx::xy(alpha), count(alpha));
         let wo = inside(w, self.eta);
         let enters = self.enters(w.z);
         let of = |u| {
@@ -91,7 +88,7 @@ impl Law for CoatLoss {
             };
             1.0 - f64::from(ggx.weight(wo, wi).min(1.0) * (self.enters(out.z) / enters.max(1e-9)).min(1.0))
         };
-        ((points(POINTS).map(of).sum::<f64>() / POINTS as f64) as f32).clamp(0.0, 1.0)
+        ((points(n).map(of).sum::<f64>() / n as f64) as f32).clamp(0.0, 1.0)
     }
 
     fn weight(self, mu: f32) -> f32 {

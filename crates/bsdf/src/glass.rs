@@ -2,12 +2,11 @@ use color::Lanes;
 use math::{FRAC_1_PI, Vec3};
 
 use crate::bsdf::{BsdfSample, DeltaLobe};
-use crate::facets::{
-    Micro, further_pdf_w, half_reflected, half_refracted, isotropic, sample_further,
-};
+use crate::facets::{Micro, further_pdf_w, half_reflected, half_refracted, isotropic, sample_further};
 use crate::film::Film;
 use crate::fresnel::{fresnel_dielectric, refracted_cosine};
 use crate::glass_loss::{glass_loss, glass_loss_mean, refract};
+use crate::layers::Layers;
 use crate::lobes::{Lobes, TransportMode};
 use crate::mirror;
 use crate::reflectance::Reflectance;
@@ -49,6 +48,8 @@ pub(crate) struct Glass {
     pub covered: f32,
     pub reflectance: Lanes,
     pub transmittance: Lanes,
+    /// Layers on the side of +ns. They return to the inside what they do not let out: at a facet, by its angle.
+    pub layers: Option<Layers>,
     /// Mean losses on the near and on the far side; 0 where nothing is restored.
     pub means: [f32; 2],
 }
@@ -56,9 +57,7 @@ pub(crate) struct Glass {
 /// Mean losses of an interface on the side of +ns and on that of −ns.
 pub(crate) fn means(micro: &Micro, eta: f32) -> [f32; 2] {
     match micro {
-        Micro::Conserving { alpha, .. } => {
-            [eta, 1.0 / eta].map(|eta| glass_loss_mean(*alpha, eta))
-        }
+        Micro::Conserving { alpha, .. } => [eta, 1.0 / eta].map(|eta| glass_loss_mean(*alpha, eta)),
         Micro::SingleBounce(_) | Micro::Beckmann(_) => [0.0; 2],
     }
 }
@@ -77,6 +76,18 @@ impl Glass {
             _ => (c, self.eta),
         };
         Reflectance::dielectric(eta).under(self.film, self.covered).at(c)
+    }
+
+    /// What a facet throws back: [`Self::fresnel`], tinted, and from inside what the layers outside return.
+    #[inline]
+    fn reflected(&self, c: f32, fresnel: Lanes) -> Lanes {
+        let own = self.reflectance * fresnel;
+        match (self.layers, self.side, refracted_cosine(c, self.eta)) {
+            (Some(layers), Side::Back, Some(outside)) => {
+                own + (Lanes::ONE - fresnel) * (1.0 - layers.passes(outside))
+            }
+            _ => own,
+        }
     }
 
     /// Radiance's factor 1/η² at refraction.
@@ -114,8 +125,9 @@ impl Glass {
                 return Lanes::ZERO;
             }
             let h = half_reflected(wo, wi);
-            let single = self.fresnel(wo.dot(h)) * self.micro.reflection(wo, wi, h);
-            return self.reflectance * (single + Lanes::splat(further));
+            let c = wo.dot(h);
+            let single = self.reflected(c, self.fresnel(c)) * self.micro.reflection(wo, wi, h);
+            return single + self.reflectance * further;
         }
         if !allowed.contains(TRANSMISSION) {
             return Lanes::ZERO;
@@ -139,7 +151,7 @@ impl Glass {
             (false, _) => 0.0,
             (true, true) => {
                 let f = self.fresnel(c);
-                let (r, t) = ((self.reflectance * f).max(), (self.transmittance * (Lanes::ONE - f)).max());
+                let (r, t) = (self.reflected(c, f).max(), (self.transmittance * (Lanes::ONE - f)).max());
                 if r + t > 0.0 { r / (r + t) } else { 0.5 }
             }
         }

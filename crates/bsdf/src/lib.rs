@@ -33,6 +33,7 @@ mod ggx;
 mod glass;
 mod glass_loss;
 mod kind;
+mod layers;
 mod lobes;
 mod local;
 mod mirror;

@@ -350,6 +350,7 @@ impl Local {
             side: self.side,
             film,
             covered: 1.0,
+            layers: None,
             reflectance,
             transmittance,
             means: if self.side == Side::Front { [front, back] } else { [back, front] },

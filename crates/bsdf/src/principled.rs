@@ -2,6 +2,7 @@ use color::Lanes;
 use math::Vec4;
 
 use crate::film::Film;
+use crate::slab::{self, Missing};
 
 /// What lies behind a principled surface.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -76,7 +77,7 @@ impl Default for PrincipledParameters {
     }
 }
 
-/// [`PrincipledParameters`] in 56 bytes. Colours and roughnesses keep 16 bits of their root, shares 16 bits; 0 and 1 are exact.
+/// [`PrincipledParameters`] in 60 bytes. Colours and roughnesses keep 16 bits of their root, shares 16 bits; 0 and 1 are exact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Principled {
     base_color: [u16; 4],
@@ -94,6 +95,8 @@ pub struct Principled {
     film_weight: u16,
     film: Film,
     interior: Interior,
+    /// Roots of [`slab::Missing`].
+    missing: [u16; 2],
 }
 
 const STEPS: f32 = 65535.0;
@@ -128,7 +131,7 @@ impl Principled {
     /// Packs parameters.
     pub fn new(p: &PrincipledParameters) -> Self {
         let eta = if p.eta.is_finite() && p.eta > 0.0 { p.eta } else { 1.0 };
-        Self {
+        let packed = Self {
             base_color: pack_color(p.base_color),
             specular_color: pack_color(p.specular_color),
             sheen_color: pack_color(p.sheen_color),
@@ -144,7 +147,17 @@ impl Principled {
             film_weight: pack(p.film_weight),
             film: p.film,
             interior: p.interior,
-        }
+            missing: [0; 2],
+        };
+        let Missing { base, metal } = slab::missing(&packed.parameters());
+        Self { missing: [base, metal].map(pack_root), ..packed }
+    }
+
+    /// Means of what layers leave to the base and keep back of metal.
+    #[inline]
+    pub(crate) fn missing(&self) -> Missing {
+        let [base, metal] = self.missing.map(unpack_root);
+        Missing { base, metal }
     }
 
     /// Unpacks them.
@@ -230,7 +243,7 @@ mod tests {
         assert!((q.base_color - p.base_color).0.abs().max_element() < 1e-5 && q.base_color.0.z == 1.0);
         assert!(q.metallic == 1.0 && q.sheen_color.0.y == 0.0 && (q.alpha[0] / 1e-3 - 1.0).abs() < 1e-3);
         assert_eq!(Principled::new(&q), Principled::new(&p));
-        assert!(size_of::<Principled>() <= 56);
+        assert!(size_of::<Principled>() <= 60);
         let bad = PrincipledParameters { metallic: f32::NAN, eta: f32::NAN, specular: 7.0, ..p };
         let q = Principled::new(&bad).parameters();
         assert_eq!((q.metallic, q.eta, q.specular), (0.0, 1.0, 1.0));

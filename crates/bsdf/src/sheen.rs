@@ -5,9 +5,6 @@ use math::{PI, Vec3};
 
 use crate::table::{lerp, locate};
 
-/// Least α in use: below it the fitted masking lets the model return more light than it gets at grazing angles.
-const ALPHA_MIN: f32 = 0.07;
-
 /// Fibres that stand on a surface: the distribution of normals sin^(1/α) with its fitted masking (Estevez & Kulla 2017,
 /// "Production friendly microfacet sheen BRDF"), without Fresnel. Local directions with z > 0.
 #[derive(Clone, Copy)]
@@ -24,9 +21,17 @@ fn curve(x: f32, t: f32) -> f32 {
 }
 
 impl Sheen {
+    /// Least α in use: below it the fitted masking lets the model return more light than it gets at grazing angles.
+    pub const ALPHA_MIN: f32 = 0.07;
+
     #[inline]
     pub fn new(alpha: f32) -> Self {
-        Self { alpha: alpha.clamp(ALPHA_MIN, 1.0) }
+        Self { alpha: alpha.clamp(Self::ALPHA_MIN, 1.0) }
+    }
+
+    /// As clamped.
+    pub fn alpha(self) -> f32 {
+        self.alpha
     }
 
     fn lambda(self, cos: f32) -> f32 {
@@ -48,7 +53,7 @@ impl Sheen {
     /// Directional albedo, in [0, 1].
     pub fn albedo(self, mu: f32) -> f32 {
         let (m, fm) = locate(mu.max(0.0).sqrt(), MU);
-        let s = ALPHA_MIN.sqrt();
+        let s = Sheen::ALPHA_MIN.sqrt();
         let (a, fa) = locate((self.alpha.sqrt() - s) / (1.0 - s), ALPHA);
         let row = |r: &[f32; MU]| lerp(r[m], r[m + 1], fm);
         lerp(row(&TABLE[a]), row(&TABLE[a + 1]), fa)
@@ -69,7 +74,7 @@ const ALPHA: usize = 16;
 
 /// Directional albedos, tabulated at first use (about 30 ms).
 static TABLE: LazyLock<Vec<[f32; MU]>> = LazyLock::new(|| {
-    let s = ALPHA_MIN.sqrt();
+    let s = Sheen::ALPHA_MIN.sqrt();
     let row = |a: usize| {
         let alpha = (s + (1.0 - s) * a as f32 / (ALPHA - 1) as f32).powi(2);
         from_fn(|m| albedo(Sheen::new(alpha), (m as f32 / (MU - 1) as f32).powi(2).max(1e-4), 32, 24))

@@ -9,6 +9,7 @@ use crate::diffuse;
 use crate::facets::{Facets, Micro, isotropic};
 use crate::ggx::ALPHA_MIN;
 use crate::glass::{self, Glass, Side, is_matched};
+use crate::layers::{COAT_ETA, Layers, Under};
 use crate::lobes::{Lobes, TransportMode};
 use crate::principled::{Interior, Principled, PrincipledParameters};
 use crate::reflectance::Reflectance;
@@ -16,12 +17,11 @@ use crate::sheen::{self, Sheen};
 use crate::thin::Thin;
 use crate::translucent;
 
-/// Index of the clear coat.
-const COAT_ETA: f32 = 1.5;
-
-/// The principled model at one point, seen from one side. Layers cover one another by albedo scaling: what is below one that
-/// reflects E(μ) is multiplied by min(1 − E(o), 1 − E(i)), which is reciprocal and never gains energy; the diffuse base below
-/// the dielectric by (1 − E(o))(1 − E(i))/(1 − E_mean), which loses none (Kelemen & Szirmay-Kalos 2001).
+/// The principled model at one point, seen from one side: sheen over clear coat over a mixture of metal, of what transmits
+/// specularly, and of dielectric on a diffuse base. [`Layers`] cover what is below them by albedo scaling. What that keeps back
+/// returns in lobes of rank one, X(o)X(i)/(π X_mean) with X what is missing (after Kelemen & Szirmay-Kalos 2001): of the diffuse base
+/// that is its whole lobe, X = D = 1 − all that the layers and the dielectric return; of metal and sheets a lobe beside theirs,
+/// X = P = 1 − all that they and the layers return. So each part returns all light where all is white, and f is reciprocal.
 /// Seen from inside, a solid only transmits and reflects specularly: its other parts absorb there.
 pub(crate) struct Slab {
     p: PrincipledParameters,
@@ -33,7 +33,17 @@ pub(crate) struct Slab {
     gloss: Rough,
     clear: Clear,
     coat: Rough,
-    sheen: Sheen,
+    layers: Layers,
+    /// Means of D and P.
+    missing: Missing,
+}
+
+/// (1/π)∫ over the hemisphere, times cos, of what layers and dielectric leave to the diffuse base, and of what layers keep back
+/// of metal (see [`Slab`]).
+#[derive(Clone, Copy)]
+pub(crate) struct Missing {
+    pub base: f32,
+    pub metal: f32,
 }
 
 /// The part that transmits specularly.
@@ -53,11 +63,13 @@ struct Shares {
     reflected: f32,
     transmitted: f32,
     sheen: f32,
+    further: f32,
 }
 
 impl Shares {
     fn sum(&self) -> f32 {
-        self.coat + self.metal + self.gloss + self.clear + self.reflected + self.transmitted + self.sheen
+        let specular = self.coat + self.metal + self.gloss + self.clear + self.further;
+        specular + self.reflected + self.transmitted + self.sheen
     }
 }
 
@@ -82,6 +94,75 @@ pub(crate) fn multiple(packed: &Principled) -> Lanes {
     conductor::multiple(&micro, &metallic(&p))
 }
 
+/// The layers of a slab.
+fn layers(p: &PrincipledParameters) -> Layers {
+    Layers {
+        coat: p.clearcoat,
+        coat_alpha: p.clearcoat_alpha.max(ALPHA_MIN),
+        sheen: p.sheen_color.max(),
+        fibres: Sheen::new(p.sheen_alpha),
+    }
+}
+
+/// Index for the tables of the dielectric's reflection.
+fn table_eta(eta: f32) -> f32 {
+    eta.max(1.0 / eta).clamp(1.0, ETA_MAX)
+}
+
+/// D(w).
+fn left_to_base(p: &PrincipledParameters, layers: &Layers, w: Vec3) -> f32 {
+    let gloss = (p.specular_color * p.specular).max() * coat_albedo(w, p.alpha, table_eta(p.eta));
+    if layers.none() {
+        return 1.0 - gloss;
+    }
+    (1.0 - layers.returned(w) - gloss * layers.kept(Under::Gloss, w, p.alpha)).max(0.0)
+}
+
+/// P(w).
+fn kept_back(p: &PrincipledParameters, layers: &Layers, w: Vec3) -> f32 {
+    (1.0 - layers.returned(w) - layers.kept(Under::White, w, p.alpha)).max(0.0)
+}
+
+/// [`Missing`] of a slab, never 0, by eight-point Gauss–Legendre quadrature in √μ.
+pub(crate) fn missing(p: &PrincipledParameters) -> Missing {
+    let p = &PrincipledParameters { alpha: p.alpha.map(|a| a.max(ALPHA_MIN)), ..*p };
+    let layers = layers(p);
+    let has_base = p.metallic < 1.0 && p.transmission < 1.0;
+    if layers.none() {
+        let tint = (p.specular_color * p.specular).max();
+        let gloss = if has_base { tint * coat_albedo_mean(p.alpha, table_eta(p.eta)) } else { 0.0 };
+        return Missing { base: 1.0 - gloss, metal: 0.0 };
+    }
+    const NODES: [(f32, f32); 8] = [
+        (0.019_855_07, 0.050_614_27),
+        (0.101_666_76, 0.111_190_52),
+        (0.237_233_8, 0.156_853_32),
+        (0.408_282_68, 0.181_341_89),
+        (0.591_717_3, 0.181_341_89),
+        (0.762_766_2, 0.156_853_32),
+        (0.898_333_25, 0.111_190_52),
+        (0.980_144_9, 0.050_614_27),
+    ];
+    let azimuths = if p.alpha[0] == p.alpha[1] { 1 } else { 3 };
+    let kept_lobe = p.metallic > 0.0 || (p.transmission > 0.0 && p.interior == Interior::Thin);
+    let mut mean = Missing { base: 0.0, metal: 0.0 };
+    for (t, weight) in NODES {
+        for i in 0..azimuths {
+            let phi = std::f32::consts::FRAC_PI_2 * (i as f32 + 0.5) / azimuths as f32;
+            // μ = t²: dense towards grazing.
+            let w = math::spherical_direction(t * t, phi);
+            let weight = 4.0 * t * t * t * weight / azimuths as f32;
+            if has_base {
+                mean.base += weight * left_to_base(p, &layers, w);
+            }
+            if kept_lobe {
+                mean.metal += weight * kept_back(p, &layers, w);
+            }
+        }
+    }
+    Missing { base: mean.base.max(1e-6), metal: if kept_lobe { mean.metal.max(1e-6) } else { 0.0 } }
+}
+
 impl Slab {
     /// `multiple` is [`multiple`] of the same.
     pub fn new(packed: &Principled, side: Side, multiple: Lanes) -> Self {
@@ -89,7 +170,7 @@ impl Slab {
         p.alpha = p.alpha.map(|a| a.max(ALPHA_MIN));
         p.clearcoat_alpha = p.clearcoat_alpha.max(ALPHA_MIN);
         let alpha = isotropic(p.alpha);
-        let eta = p.eta.max(1.0 / p.eta).clamp(1.0, ETA_MAX);
+        let (eta, layers) = (table_eta(p.eta), layers(&p));
         let micro = Micro::new(Facets::Conserving, p.alpha);
         let tint = p.specular_color * p.specular;
         let clear = if !packed.has_transmission() {
@@ -110,6 +191,7 @@ impl Slab {
                 covered: p.film_weight,
                 reflectance: tint,
                 transmittance: p.base_color.map(f32::sqrt),
+                layers: (!layers.none()).then_some(layers),
                 means: if side == Side::Front { [front, back] } else { [back, front] },
             })
         };
@@ -120,7 +202,8 @@ impl Slab {
             gloss: single(p.alpha, Reflectance::dielectric(eta).under(p.film, p.film_weight)),
             clear,
             coat: single([p.clearcoat_alpha; 2], Reflectance::dielectric(COAT_ETA)),
-            sheen: Sheen::new(p.sheen_alpha),
+            layers,
+            missing: packed.missing(),
             p,
         }
     }
@@ -137,19 +220,6 @@ impl Slab {
         (d * self.p.transmission, d * (1.0 - self.p.transmission))
     }
 
-    /// What the coat reflects of light along `w`; 0 inside.
-    fn coat_albedo(&self, mu: f32) -> f32 {
-        if self.p.clearcoat == 0.0 {
-            return 0.0;
-        }
-        self.p.clearcoat * coat_albedo(Vec3::new((1.0 - mu * mu).max(0.0).sqrt(), 0.0, mu), [self.p.clearcoat_alpha; 2], COAT_ETA)
-    }
-
-    fn sheen_albedo(&self, mu: f32) -> f32 {
-        let most = self.p.sheen_color.max();
-        if most == 0.0 { 0.0 } else { most * self.sheen.albedo(mu) }
-    }
-
     /// What the dielectric over the diffuse base reflects.
     fn gloss_albedo(&self, w: Vec3) -> f32 {
         self.tint().max() * coat_albedo(w, self.p.alpha, self.eta)
@@ -157,21 +227,34 @@ impl Slab {
 
     /// Factor of what lies below sheen and coat.
     fn covered(&self, wo: Vec3, wi: Vec3) -> f32 {
+        if self.layers.none() {
+            return 1.0;
+        }
         // A sided slab is covered on its front alone; any other on both sides.
         let sided = matches!(self.clear, Clear::Solid(_));
         let seen = |w: Vec3| !sided || (w.z > 0.0) == (self.outer == Side::Front);
-        let under = |e: &dyn Fn(f32) -> f32| {
-            let left = |w: Vec3| if seen(w) { 1.0 - e(w.z.abs()) } else { 1.0 };
-            left(wo).min(left(wi))
-        };
-        let coat = if self.p.clearcoat == 0.0 { 1.0 } else { under(&|mu| self.coat_albedo(mu)) };
-        if self.p.sheen_color.is_zero() { coat } else { coat * under(&|mu| self.sheen_albedo(mu)) }
+        match (seen(wo), seen(wi)) {
+            (true, true) => self.layers.cover(wo.z.abs(), wi.z.abs()),
+            (true, false) => self.layers.passes(wo.z.abs()),
+            (false, true) => self.layers.passes(wi.z.abs()),
+            (false, false) => 1.0,
+        }
     }
 
-    /// (1 − E(o))(1 − E(i))/(π (1 − E_mean)) of the dielectric over the diffuse base.
-    fn base_factor(&self, wo: Vec3, wi: Vec3) -> f32 {
-        let mean = self.tint().max() * coat_albedo_mean(self.p.alpha, self.eta);
-        (1.0 - self.gloss_albedo(wo)) * (1.0 - self.gloss_albedo(wi)) * FRAC_1_PI / (1.0 - mean)
+    /// D(w).
+    fn base(&self, w: Vec3) -> f32 {
+        left_to_base(&self.p, &self.layers, w)
+    }
+
+    /// P(w); 0 where there is neither metal nor sheet.
+    fn kept_back(&self, w: Vec3) -> f32 {
+        if self.missing.metal == 0.0 { 0.0 } else { kept_back(&self.p, &self.layers, w) }
+    }
+
+    /// Colour of the lobe beside those of metal and sheet.
+    fn further(&self) -> Lanes {
+        let sheet = if matches!(self.clear, Clear::Thin(_)) { self.dielectric().0 } else { 0.0 };
+        self.p.base_color * self.p.base_color * self.p.metallic + self.p.base_color * sheet
     }
 
     pub fn eval(&self, wo: Vec3, wi: Vec3, allowed: Lobes, mode: TransportMode) -> Lanes {
@@ -196,19 +279,26 @@ impl Slab {
         } else {
             (translucent::TRANSMISSION, self.p.diffuse_transmission)
         };
-        if outer && rest * share > 0.0 && allowed.contains(lobe) {
-            f += self.p.base_color * (rest * share * self.base_factor(wo, wi));
-        }
         if !f.is_zero() {
             f *= self.covered(wo, wi);
         }
-        if outer && reflects {
-            if self.p.clearcoat > 0.0 && allowed.contains(conductor::GLOSSY) {
-                let sheen = (1.0 - self.sheen_albedo(wo.z)).min(1.0 - self.sheen_albedo(wi.z));
-                f += self.coat.eval(wo, wi) * (self.p.clearcoat * sheen);
+        if outer && rest * share > 0.0 && allowed.contains(lobe) {
+            let pair = self.base(wo) * self.base(wi) * FRAC_1_PI / self.missing.base;
+            f += self.p.base_color * (rest * share * pair);
+        }
+        if outer && reflects && !self.layers.none() {
+            if allowed.contains(conductor::GLOSSY) {
+                if self.p.clearcoat > 0.0 {
+                    let cover = self.layers.cover_coat(wo.z, wi.z);
+                    f += self.coat.eval(wo, wi) * (self.p.clearcoat * cover);
+                }
+                if self.missing.metal > 0.0 {
+                    let pair = self.kept_back(wo) * self.kept_back(wi) * FRAC_1_PI / self.missing.metal;
+                    f += self.further() * pair;
+                }
             }
-            if !self.p.sheen_color.is_zero() && allowed.contains(diffuse::LOBES) {
-                f += self.p.sheen_color * self.sheen.eval(wo, wi);
+            if self.layers.sheen > 0.0 && allowed.contains(diffuse::LOBES) {
+                f += self.p.sheen_color * self.layers.fibres.eval(wo, wi);
             }
         }
         f
@@ -225,15 +315,16 @@ impl Slab {
             return s;
         }
         let e = if rest > 0.0 { self.gloss_albedo(wo) } else { 0.0 };
-        let base = rest * (1.0 - e) * self.p.base_color.max();
+        let base = if rest > 0.0 { rest * self.base(wo) * self.p.base_color.max() } else { 0.0 };
         if allowed.contains(conductor::GLOSSY) {
-            s.coat = self.coat_albedo(wo.z);
+            s.coat = self.layers.coat_at(wo.z);
+            s.further = self.kept_back(wo) * self.further().max();
             s.metal = self.p.metallic * self.metal.reflectance.at(wo.z).max();
             s.gloss = rest * e;
         }
         if allowed.contains(diffuse::LOBES) {
             s.reflected = base * (1.0 - self.p.diffuse_transmission);
-            s.sheen = self.sheen_albedo(wo.z);
+            s.sheen = self.layers.sheen_at(wo.z);
         }
         if allowed.contains(translucent::TRANSMISSION) {
             s.transmitted = base * self.p.diffuse_transmission;
@@ -259,7 +350,7 @@ impl Slab {
         if wi.z < 0.0 {
             return (pdf + s.transmitted * diffuse::pdf_w(-wi.z)) / sum;
         }
-        pdf += s.reflected * diffuse::pdf_w(wi.z) + s.sheen * sheen::PDF_W;
+        pdf += (s.reflected + s.further) * diffuse::pdf_w(wi.z) + s.sheen * sheen::PDF_W;
         for (share, part) in [(s.coat, &self.coat), (s.metal, &self.metal), (s.gloss, &self.gloss)] {
             if share > 0.0 {
                 pdf += share * part.pdf_w(wo, wi);
@@ -300,6 +391,8 @@ impl Slab {
             (self.metal.direction(wo, v, u)?, conductor::GLOSSY)
         } else if let Some(v) = chosen(s.gloss) {
             (self.gloss.direction(wo, v, u)?, conductor::GLOSSY)
+        } else if chosen(s.further).is_some() {
+            (cosine_hemisphere(u), conductor::GLOSSY)
         } else if chosen(s.reflected).is_some() {
             (cosine_hemisphere(u), diffuse::LOBES)
         } else if chosen(s.transmitted).is_some() {
@@ -329,12 +422,12 @@ impl Slab {
         if self.outer == Side::Back {
             return through;
         }
-        let e = coat_albedo(wo, self.p.alpha, self.eta);
-        let gloss = self.tint() * e;
-        let dielectric = gloss + self.p.base_color * (1.0 - gloss.max());
-        let below = through + self.metal.reflectance.at(cos_o) * self.p.metallic + dielectric * rest;
-        let (coat, fuzz) = (self.coat_albedo(cos_o), self.sheen_albedo(cos_o));
-        let coated = Lanes::splat(coat) + below * (1.0 - coat);
-        self.p.sheen_color * self.sheen.albedo(cos_o) + coated * (1.0 - fuzz)
+        let gloss = self.tint() * coat_albedo(wo, self.p.alpha, self.eta);
+        let below = through + self.metal.reflectance.at(cos_o) * self.p.metallic + gloss * rest;
+        let coat = Lanes::splat(self.layers.coat_at(cos_o)) + below * (1.0 - self.layers.coat_at(cos_o));
+        let sheen = self.p.sheen_color * self.layers.fibres.albedo(cos_o);
+        let base = if rest > 0.0 { self.p.base_color * (rest * self.base(wo)) } else { Lanes::ZERO };
+        let further = self.further() * self.kept_back(wo);
+        sheen + coat * (1.0 - self.layers.sheen_at(cos_o)) + base + further
     }
 }

@@ -10,13 +10,13 @@ use crate::ggx::ALPHA_MIN;
 /// Nodes of the polar angle for roughness that is the same all round.
 const ROUND: usize = 48;
 /// Nodes of the polar angle for roughness of two directions.
-const OVAL: usize = 32;
+const OVAL: usize = 40;
 /// Nodes of the azimuth, from the smooth axis to the rough one.
 const AZIMUTHS: usize = 9;
 /// Nodes in ln α, evenly spaced over [[`ALPHA_MIN`], 1].
-const ALPHAS: usize = 32;
+const ALPHAS: usize = 64;
 /// Steps between nodes in the quadrature of means.
-const STEPS: usize = 4;
+const STEPS: usize = 8;
 /// Azimuths in the quadrature of means.
 const MEAN_AZIMUTHS: usize = 12;
 
@@ -87,10 +87,17 @@ pub(crate) fn two((i, f): (usize, f32)) -> Places {
     [(i, 1.0 - f), (i + 1, f), (0, 0.0), (0, 0.0)]
 }
 
-/// μ(1 + α)/(μ + α): masking depends on μ/α for small α, so that in this coordinate tables are as smooth at α = 10⁻⁴ as at 1.
+/// Grows with μ/α, on which masking depends for small α: so tables are as smooth at α = 10⁻⁴ as at 1. The mean of τ = μ(1 + α)/(μ + α)
+/// and 1 − √(1 − τ), which resolves what falls like (α/μ)².
 #[inline]
-pub(crate) fn tau(mu: f32, alpha: f32) -> f32 {
-    mu * (1.0 + alpha) / (mu + alpha)
+pub(crate) fn graded(mu: f32, alpha: f32) -> f32 {
+    let left = alpha * (1.0 - mu).max(0.0) / (mu + alpha);
+    1.0 - 0.5 * (left + left.sqrt())
+}
+
+/// Quadrature points of a value for this roughness.
+pub(crate) fn count(alpha: [f32; 2]) -> usize {
+    if alpha[0] == alpha[1] { 1500 } else { 1000 }
 }
 
 /// `n` points of [0, 1)², an additive recurrence (Roberts 2018) whose error falls nearly as 1/n.
@@ -207,7 +214,11 @@ impl<L: Law> Table<L> {
     /// The function along `w`, on either side.
     #[inline]
     pub fn at(&self, law: L, w: Vec3, alpha: [f32; 2]) -> f32 {
-        if alpha[0] == alpha[1] { self.at_cosine(law, w.z.abs(), alpha[0]) } else { self.at_oval(law, w, alpha) }
+        if alpha[0] == alpha[1] {
+            self.at_cosine(law, w.z.abs(), alpha[0])
+        } else {
+            self.at_oval(law, w, alpha)
+        }
     }
 
     /// The function of roughness that is the same all round.
