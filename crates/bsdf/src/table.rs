@@ -10,9 +10,9 @@ use crate::ggx::ALPHA_MIN;
 /// Nodes of the polar angle for roughness that is the same all round.
 const ROUND: usize = 48;
 /// Nodes of the polar angle for roughness of two directions.
-const OVAL: usize = 40;
+const OVAL: usize = 32;
 /// Nodes of the azimuth, from the smooth axis to the rough one.
-const AZIMUTHS: usize = 9;
+const AZIMUTHS: usize = 11;
 /// Nodes in ln α, evenly spaced over [[`ALPHA_MIN`], 1].
 const ALPHAS: usize = 64;
 /// Steps between nodes in the quadrature of means.
@@ -167,22 +167,48 @@ fn alpha_along(great: f32, small: f32, c2: f32) -> f32 {
     (great * great * c2 + small * small * (1.0 - c2)).sqrt()
 }
 
+/// Where an azimuth stands among [`AZIMUTHS`], from 0 at the smooth axis to 1 at the rough one: even in the angle and in the root of
+/// the α along it, which is the square root of `v2` of the way between the two.
+#[inline]
+fn azimuth(c2: f32, v2: f32) -> f32 {
+    0.5 * (v2.clamp(0.0, 1.0).sqrt() + 1.0 - c2.clamp(0.0, 1.0).sqrt().acos() / FRAC_PI_2)
+}
+
+/// How far `along` is on the way from `small` to `great`.
+#[inline]
+fn way(along: f32, great: f32, small: f32) -> f32 {
+    (along - small) / (great - small)
+}
+
+/// The squared cosine of an azimuth, by bisection.
+fn squared_cosine(place: f32, great: f32, small: f32) -> f32 {
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..40 {
+        let c2 = 0.5 * (low + high);
+        if azimuth(c2, way(alpha_along(great, small, c2), great, small)) < place {
+            low = c2;
+        } else {
+            high = c2;
+        }
+    }
+    0.5 * (low + high)
+}
+
 impl Rows {
     fn compute<L: Law>(law: L, great: f32, small: f32) -> Self {
         let values = from_fn(|p| {
-            let v = p as f32 / (AZIMUTHS - 1) as f32;
-            let along = lerp(small, great, v * v);
-            let c2 = (along * along - small * small) / (great * great - small * small);
+            let c2 = squared_cosine(p as f32 / (AZIMUTHS - 1) as f32, great, small);
+            let along = alpha_along(great, small, c2);
             from_fn(|i| {
                 let mu = cosine(law, i as f32 / (OVAL - 1) as f32, along);
-                law.value([great, small], direction(mu, c2.clamp(0.0, 1.0).sqrt()))
+                law.value([great, small], direction(mu, c2.sqrt()))
             })
         });
         let mut rows = Self { values, mean: 0.0 };
         for j in 0..MEAN_AZIMUTHS {
             let c = (FRAC_PI_2 * (j as f32 + 0.5) / MEAN_AZIMUTHS as f32).cos();
             let along = alpha_along(great, small, c * c);
-            let (p, fp) = locate(((along - small) / (great - small)).max(0.0).sqrt(), AZIMUTHS);
+            let (p, fp) = locate(azimuth(c * c, way(along, great, small)), AZIMUTHS);
             let row: [f32; OVAL] = from_fn(|i| lerp(rows.values[p][i], rows.values[p + 1][i], fp));
             rows.mean += mean(law, &row, along) / MEAN_AZIMUTHS as f32;
         }
@@ -244,9 +270,9 @@ impl<L: Law> Table<L> {
         let c2 = if sin2 > 0.0 { (c * c / sin2).min(1.0) } else { 0.5 };
         let along = alpha_along(great, small, c2);
         let x = law.coordinate(w.z.abs(), along);
-        let v2 = if great > small { ((along - small) / (great - small)).clamp(0.0, 1.0) } else { c2 };
+        let v2 = if great > small { way(along, great, small) } else { c2 };
         let (xr, xo) = (locate(x, ROUND), locate(x, OVAL));
-        let (v, swapped) = (locate(v2.sqrt(), AZIMUTHS), locate((1.0 - v2).sqrt(), AZIMUTHS));
+        let (v, swapped) = (locate(azimuth(c2, v2), AZIMUTHS), locate(azimuth(1.0 - c2, 1.0 - v2), AZIMUTHS));
         let rows = |rows: &Rows, (p, fp): (usize, f32)| {
             let of = |row: &[f32; OVAL]| lerp(row[xo.0], row[xo.0 + 1], xo.1);
             lerp(of(&rows.values[p]), of(&rows.values[p + 1]), fp)
