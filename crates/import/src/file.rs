@@ -1,4 +1,4 @@
-//! Files, plain or compressed, no larger than allowed.
+//! Files: plain, or compressed and no larger than allowed.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -34,4 +34,19 @@ pub(crate) fn read(path: &Path, most: u64) -> Result<Vec<u8>, String> {
         bytes = plain;
     }
     if bytes.len() as u64 > most { Err(too_large()) } else { Ok(bytes) }
+}
+
+/// The bytes of an ordinary file, as they are.
+///
+/// # Errors
+/// Why not, in words that follow the file's name.
+pub(crate) fn read_plain(path: &Path) -> Result<Vec<u8>, String> {
+    let io = |error: io::Error| match error.kind() {
+        io::ErrorKind::NotFound => "is not there".to_owned(),
+        _ => format!("cannot be read: {error}"),
+    };
+    if !std::fs::metadata(path).map_err(io)?.is_file() {
+        return Err("is no ordinary file".into());
+    }
+    std::fs::read(path).map_err(io)
 }

@@ -1,7 +1,7 @@
 //! Scenes of other programs as [`SceneDesc`](scenefile::SceneDesc)s.
 //!
-//! [`load`] reads what Nephroid knows, by the file's extension: its own TOML, pbrt-v4 (v3 where its names differ), and
-//! glTF 2.0.
+//! [`load`] reads what Nephroid knows, by the file's extension: its own TOML, pbrt-v4 (v3 where its names differ),
+//! glTF 2.0, and the mesh files OBJ and PLY.
 //! What a format has and Nephroid does not is said once, with its place and what is done instead, as a warning.
 //! [`outsource`] moves large meshes of a description into PLY files, so that it can be written as TOML.
 
@@ -10,9 +10,11 @@ mod file;
 mod gltf;
 mod matrix;
 mod names;
+mod obj;
 mod outsource;
 mod pbrt;
 mod picture;
+mod ply;
 mod report;
 mod spectrum;
 mod stage;
@@ -24,7 +26,8 @@ use scenefile::{Diagnostic, Loaded, Severity, Sources, Span};
 
 pub use outsource::{OutsourceError, outsource};
 
-/// Reads a scene in any known format: `.pbrt` and `.pbrt.gz` as pbrt, `.gltf` and `.glb` as glTF, everything else as TOML.
+/// Reads a scene in any known format: `.pbrt` and `.pbrt.gz` as pbrt, `.gltf` and `.glb` as glTF, `.obj`
+/// and `.ply` as meshes, everything else as TOML.
 ///
 /// `overrides` replace values of TOML files, as [`scenefile::load`] takes them; with another format they are errors.
 /// Never panics; memory is bounded by the size of the files.
@@ -35,6 +38,8 @@ pub fn load(path: &Path, overrides: &[String]) -> Loaded {
         _ if !overrides.is_empty() => {}
         Format::Pbrt => return pbrt::load(path),
         Format::Gltf => return gltf::load(path),
+        Format::Obj => return obj::load(path),
+        Format::Ply => return ply::load(path),
     }
     let mut sources = Sources::default();
     let span = |file| Span { file, start: 0, end: 0 };
@@ -67,6 +72,10 @@ pub enum Format {
     Pbrt,
     /// glTF 2.0, text or binary.
     Gltf,
+    /// A Wavefront model.
+    Obj,
+    /// A mesh in PLY.
+    Ply,
 }
 
 impl Format {
@@ -77,6 +86,8 @@ impl Format {
         match () {
             () if is(".pbrt") || is(".pbrt.gz") => Self::Pbrt,
             () if is(".gltf") || is(".glb") => Self::Gltf,
+            () if is(".obj") => Self::Obj,
+            () if is(".ply") => Self::Ply,
             () => Self::Native,
         }
     }

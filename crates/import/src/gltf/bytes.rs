@@ -8,6 +8,7 @@ use scenefile::Span;
 
 use super::fault::{Fault, Known};
 use super::json::Value;
+use crate::file::read_plain;
 
 /// A file of either kind: text, and the binary part that goes with it.
 #[derive(Debug)]
@@ -215,7 +216,7 @@ impl Buffers {
                         match known.get(&path) {
                             Some(&store) => store,
                             None => {
-                                let bytes = read_file(&base.join(&path)).map_err(|why| {
+                                let bytes = read_plain(&base.join(&path)).map_err(|why| {
                                     Fault::new(
                                         "missing-file",
                                         format!("the buffer `{}` {why}", path.display()),
@@ -270,18 +271,6 @@ impl Buffers {
 
 fn short(have: usize, length: usize, span: Span) -> Fault {
     Fault::new("file", format!("the buffer is cut off: it has {have} of its {length} bytes"), span)
-}
-
-/// An ordinary file's bytes, or why not in words that follow its name.
-pub(crate) fn read_file(path: &Path) -> Result<Vec<u8>, String> {
-    let io = |error: std::io::Error| match error.kind() {
-        std::io::ErrorKind::NotFound => "is not there".to_owned(),
-        _ => format!("cannot be read: {error}"),
-    };
-    if !std::fs::metadata(path).map_err(io)?.is_file() {
-        return Err("is no ordinary file".into());
-    }
-    std::fs::read(path).map_err(io)
 }
 
 #[cfg(test)]

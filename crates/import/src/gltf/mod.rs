@@ -26,6 +26,7 @@ use std::path::Path;
 use scenefile::desc::SceneDesc;
 use scenefile::{Diagnostic, FileId, Loaded, Sources, Span};
 
+use crate::file::read_plain;
 use crate::report::Report;
 use crate::stage;
 use accessor::Source;
@@ -33,8 +34,6 @@ use bytes::Buffers;
 use fault::{Fault, Known};
 use json::Value;
 use materials::Surface;
-
-pub(crate) use bytes::read_file;
 
 /// Bytes of JSON, at most.
 const MOST_TEXT: usize = 1 << 30;
@@ -67,7 +66,7 @@ struct Importer<'t> {
 /// Reads and checks a scene. A file that cannot be read is a diagnostic like any other.
 pub(crate) fn load(path: &Path) -> Loaded {
     let mut sources = Sources::default();
-    let read = read_file(path).and_then(bytes::open);
+    let read = read_plain(path).and_then(bytes::open);
     let mut container = match read {
         Ok(container) if container.text.len() <= MOST_TEXT => container,
         read => {
