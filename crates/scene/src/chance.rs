@@ -13,7 +13,7 @@ use bsdf::BsdfKind;
 use math::Ray;
 use sampling::philox4x32_10;
 
-use crate::material::{Lookup, MaterialKind, Place};
+use crate::material::{MaterialKind, Place};
 use crate::{MaterialId, Scene, SurfaceInteraction};
 
 /// Surfaces that one ray may pass; a bound only against geometry that is degenerate.
@@ -75,7 +75,7 @@ impl Scene {
         hit: &SurfaceInteraction,
         number: impl Fn(&SurfaceInteraction, u32) -> f32,
     ) -> Option<MaterialId> {
-        let lookup = Lookup { textures: &self.textures, footprint: 0.0 };
+        let lookup = self.lookup(0.0);
         let at = Place { hit: Some(hit), lookup: &lookup };
         let mut id = hit.material;
         let mut round = 0;
@@ -110,7 +110,7 @@ impl Scene {
         while let Some(mix) = self.materials[root.0 as usize].part_of {
             root = mix;
         }
-        let lookup = Lookup { textures: &self.textures, footprint: 0.0 };
+        let lookup = self.lookup(0.0);
         let share = self.share_below(root, &Place { hit: Some(hit), lookup: &lookup }, wanted);
         // What has been met is possible, whatever rounding says.
         if share > 0.0 { share } else { 1.0 }

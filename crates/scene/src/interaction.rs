@@ -30,6 +30,8 @@ pub struct SurfaceInteraction {
     pub flipped: bool,
     /// Index of the triangle within its mesh; 0 for other shapes.
     pub prim: u32,
+    /// Number of the object: those outside of groups come first, then those of each instance.
+    pub object: u32,
 }
 
 /// Index of a light in [`crate::Scene::lights`].
@@ -55,6 +57,7 @@ impl SurfaceInteraction {
             light: self.light,
             flipped: self.flipped,
             prim: self.prim,
+            object: self.object,
         }
     }
 

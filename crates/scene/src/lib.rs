@@ -1,5 +1,6 @@
 //! The compiled scene: immutable, `Send + Sync`, addressed by ids. World space throughout.
 
+mod attributes;
 pub mod camera;
 mod chance;
 mod compile;

@@ -5,9 +5,11 @@ use bsdf::Bsdf;
 use color::{LaneBasis, Lanes};
 use math::{Bounds3, Ray, Transform, Vec3};
 
+use crate::attributes::Owner;
 use crate::light::{LeSample, LiSample, LightHit, LightPicker};
 use crate::material::{Lookup, Place};
 use crate::shape::to_world;
+use crate::texture::Picture;
 use crate::{
     Boundary, Camera, Light, LightId, Material, MaterialId, Medium, MediumStack, Object, SurfaceInteraction,
     Targets, Texture,
@@ -24,7 +26,13 @@ pub(crate) struct Group {
 #[derive(Debug)]
 pub(crate) enum Outer {
     Object(Object),
-    Instance { group: u32, render_from_object: Transform, material: Option<MaterialId> },
+    Instance {
+        group: u32,
+        render_from_object: Transform,
+        material: Option<MaterialId>,
+        /// Number of its first object in hits.
+        first: u32,
+    },
 }
 
 /// The dielectrics that the camera is in.
@@ -50,6 +58,8 @@ pub(crate) struct LightTexture {
 pub struct Scene {
     pub(crate) bvh: Bvh,
     pub(crate) outer: Vec<Outer>,
+    /// Of each instance, in order: the number of its first object in hits, and its place in `outer`.
+    pub(crate) instance_numbers: Vec<(u32, u32)>,
     /// Of an object or an instance, as in the description; empty where it has none.
     pub(crate) outer_names: Vec<String>,
     pub(crate) material_names: Vec<String>,
@@ -99,9 +109,10 @@ impl Scene {
         // One result from two places, not two: it need then not lie in memory.
         let surface = match &self.outer[id as usize] {
             Outer::Object(object) => object.interaction(ray, &hit),
-            Outer::Instance { group, render_from_object, material } => {
+            Outer::Instance { group, render_from_object, material, first } => {
                 let object = &self.groups[*group as usize].objects[hit.geom as usize];
-                placed(object, ray, &{ hit }, render_from_object, *material).unpacked()
+                let number = first.saturating_add(hit.geom);
+                placed(object, ray, &{ hit }, render_from_object, *material, number).unpacked()
             }
         };
         Some(surface)
@@ -117,8 +128,14 @@ impl Scene {
     /// [`Scene::boundary`]; `footprint`: width of the ray there, in units of length.
     #[inline]
     pub fn bsdf(&self, hit: &SurfaceInteraction, wo: Vec3, eta: f32, footprint: f32) -> Bsdf {
-        let lookup = Lookup { textures: &self.textures, footprint };
+        let lookup = self.lookup(footprint);
         self.materials[hit.material.0 as usize].bsdf(hit, wo, eta, &lookup)
+    }
+
+    /// What evaluating materials needs, for rays of a width.
+    #[inline]
+    pub(crate) fn lookup(&self, footprint: f32) -> Lookup<'_> {
+        Lookup { textures: &self.textures, of: Owner::Scene(self), footprint }
     }
 
     /// The dielectric that the surface at `hit` bounds.
@@ -333,7 +350,7 @@ impl Scene {
             bvh_bytes: (self.bvh.memory_bytes()
                 + self.groups.iter().map(|g| g.bvh.memory_bytes()).sum::<usize>())
                 as u64,
-            texture_bytes: self.textures.iter().map(texture_bytes).sum(),
+            texture_bytes: texture_bytes(&self.textures),
         }
     }
 }
@@ -348,7 +365,7 @@ pub(crate) fn light_factor(
     width: f32,
 ) -> Lanes {
     let hit = object.at(p, prim);
-    let lookup = Lookup { textures, footprint: width };
+    let lookup = Lookup { textures, of: Owner::Object(object), footprint: width };
     Place { hit: Some(&hit), lookup: &lookup }.emission(texture)
 }
 
@@ -360,19 +377,28 @@ fn placed(
     hit: &accel::Hit,
     render_from_object: &Transform,
     material: Option<MaterialId>,
+    number: u32,
 ) -> SurfaceInteraction {
     let inverse = render_from_object.inverse();
     let local =
         Ray { origin: inverse.point(ray.origin), direction: inverse.vector(ray.direction), t_max: ray.t_max };
     let surface = to_world(object.interaction(&local, hit), render_from_object);
-    SurfaceInteraction { material: material.unwrap_or(surface.material), ..surface }
+    SurfaceInteraction { material: material.unwrap_or(surface.material), object: number, ..surface }
 }
 
-fn texture_bytes(texture: &Texture) -> u64 {
-    match texture {
-        Texture::Image(image) => image.memory_bytes() as u64,
-        _ => 0,
+/// Bytes of the pictures, each counted once.
+fn texture_bytes(textures: &[Texture]) -> u64 {
+    let mut seen: Vec<*const Picture> = Vec::new();
+    let mut sum = 0;
+    for texture in textures {
+        if let Texture::Image(image) = texture
+            && !seen.contains(&Arc::as_ptr(image.picture()))
+        {
+            seen.push(Arc::as_ptr(image.picture()));
+            sum += image.memory_bytes() as u64;
+        }
     }
+    sum
 }
 
 /// Counts and sizes of a scene.

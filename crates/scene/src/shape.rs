@@ -3,6 +3,7 @@ use std::sync::Arc;
 use math::{PI, Ray, Transform, Vec2, Vec3, gamma};
 use mesh::TriangleMesh;
 
+use crate::attributes::{disk_uv, sphere_uv};
 use crate::{LightId, MaterialId, SurfaceInteraction};
 
 /// Geometry of an object, in the space of the BVH that holds it.
@@ -82,6 +83,7 @@ impl Object {
             light: self.light,
             flipped: false,
             prim: hit.prim,
+            object: hit.geom,
         }
     }
 }
@@ -187,8 +189,7 @@ fn sphere(
     s.ng = if flipped { -n } else { n };
     s.ns = s.ng;
     s.flipped = flipped;
-    let phi = n.x.atan2(-n.z);
-    s.uv = Vec2::new(phi / (2.0 * PI) + 0.5, n.y.clamp(-1.0, 1.0).asin() / PI + 0.5);
+    s.uv = sphere_uv(n);
     s.dpdu = Vec3::new(-n.z, 0.0, n.x);
     s.uv_per_length = 1.0 / (std::f32::consts::SQRT_2 * PI * radius);
     s
@@ -202,8 +203,7 @@ fn disk(center: Vec3, normal: Vec3, radius: f32, ray: &Ray, mut s: SurfaceIntera
     s.ng = normal;
     s.ns = normal;
     let frame = math::Frame::from_z(normal);
-    let local = frame.to_local(s.p - center) / radius;
-    s.uv = Vec2::new(local.x, local.y) * 0.5 + 0.5;
+    s.uv = disk_uv(center, normal, radius, s.p);
     s.dpdu = frame.x;
     s.uv_per_length = 0.5 / radius;
     s

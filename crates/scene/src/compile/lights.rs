@@ -11,7 +11,7 @@ use crate::light::{
     DirectionalLight, DiskLight, EnvironmentLight, PointLight, Sides, SkyLight, SphereLight, SpotLight,
     TriangleLight,
 };
-use crate::texture::{Encoding, ImageTexture};
+use crate::texture::{Encoding, Picture, Wanted};
 
 fn lanes([r, g, b]: [f32; 3]) -> Lanes {
     Lanes::rgb(r, g, b)
@@ -113,8 +113,10 @@ pub(super) fn sky(
 ) -> Result<Light, String> {
     let turned = shapes::transform(steps).and_then(|t| turn(&t)).ok_or("its transform is singular")?;
     let image = match source {
-        ImageSource::File(file) => ImageTexture::from_path(&desc.resolve(file), Encoding::Srgb),
-        ImageSource::Embedded(image) => ImageTexture::from_bytes(&image.bytes, Encoding::Srgb),
+        ImageSource::File(file) => Picture::from_path(&desc.resolve(file), Encoding::Srgb, Wanted::Color),
+        ImageSource::Embedded(image) => {
+            Picture::from_bytes(&image.bytes, &image.name, Encoding::Srgb, Wanted::Color)
+        }
     };
     let image = image.map_err(|e| e.to_string())?;
     let [width, height] = image.size();

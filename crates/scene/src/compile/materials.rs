@@ -2,11 +2,11 @@ use std::collections::BTreeMap;
 
 use bsdf::{Facets, Film, Interior};
 use color::Lanes;
-use math::Vec2;
+use mesh::TriangleMesh;
 use scenefile::desc::{self, ColorDesc, FloatDesc, Ior, MaterialRef, Metal, SceneDesc};
 use scenefile::{Diagnostic, Sourced};
 
-use crate::texture::{Checker, Encoding, Filter, ImageTexture, UvMap, Wrap};
+use super::textures::{Reading, TextureLibrary};
 use crate::{
     CoatedConductorMaterial, CoatedDiffuseMaterial, ColorSource, ConductorMaterial, DielectricMaterial,
     FloatSource, Material, MaterialId, MaterialKind, Opacity, PrincipledMaterial, RoughnessSource, Texture,
@@ -14,16 +14,37 @@ use crate::{
 
 /// Mixes within mixes, at most: a cycle ends here.
 const DEEPEST_MIX: u32 = 6;
-/// Checkers within checkers, at most: a cycle ends here.
-const DEEPEST_CHECKER: u32 = 16;
+
+/// What a mesh must have besides positions and normals.
+pub(super) struct Needs {
+    uvs: bool,
+    uvs2: bool,
+    colors: bool,
+}
+
+impl Needs {
+    /// Takes away the rest.
+    pub fn strip(&self, mesh: &mut TriangleMesh) {
+        if !self.uvs {
+            mesh.uvs = Vec::new();
+        }
+        if !self.uvs2 {
+            mesh.uvs2 = Vec::new();
+        }
+        if !self.colors {
+            mesh.colors = Vec::new();
+        }
+    }
+}
 
 /// Materials and textures as they are asked for.
 pub(super) struct Library<'d> {
     desc: &'d SceneDesc,
     materials: Vec<Material>,
     named: BTreeMap<&'d str, MaterialId>,
-    textures: Vec<Texture>,
-    texture_ids: BTreeMap<(&'d str, bool), Option<u32>>,
+    /// Those in place, by their address in the description.
+    inline: BTreeMap<usize, MaterialId>,
+    textures: TextureLibrary<'d>,
     black: Option<MaterialId>,
     pub diagnostics: Vec<Diagnostic>,
 }
@@ -34,8 +55,8 @@ impl<'d> Library<'d> {
             desc,
             materials: Vec::new(),
             named: BTreeMap::new(),
-            textures: Vec::new(),
-            texture_ids: BTreeMap::new(),
+            inline: BTreeMap::new(),
+            textures: TextureLibrary::new(desc),
             black: None,
             diagnostics: Vec::new(),
         };
@@ -44,7 +65,28 @@ impl<'d> Library<'d> {
             let id = library.add(&material.value, 0);
             library.named.insert(name, id);
         }
+        // The pictures of all, so that they are decoded together.
+        let groups = desc.groups.values().flat_map(|group| &group.objects);
+        for object in desc.objects.iter().chain(groups) {
+            if let Some(reference) = &object.material {
+                library.resolve(reference);
+            }
+            if let Some(name) = object.emission.as_ref().and_then(|emission| emission.texture.as_ref()) {
+                library.textures.get(name, Reading::Plain);
+            }
+        }
+        for material in desc.instances.iter().filter_map(|instance| instance.material.as_ref()) {
+            library.resolve(material);
+        }
+        library.textures.decode();
         library
+    }
+
+    /// What has been found wrong since the last time.
+    pub fn take_diagnostics(&mut self) -> Vec<Diagnostic> {
+        let mut all = std::mem::take(&mut self.diagnostics);
+        all.append(&mut self.textures.diagnostics);
+        all
     }
 
     /// The id of a material, or of black where it is not known (which is reported).
@@ -52,13 +94,19 @@ impl<'d> Library<'d> {
         match reference {
             // Equal ones are one: the boundaries of a solid must agree on what they bound.
             MaterialRef::Inline(material) => {
+                let address = std::ptr::from_ref(&**material) as usize;
+                if let Some(&id) = self.inline.get(&address) {
+                    return id;
+                }
                 let id = self.add(material, 0);
                 let added = &self.materials[id.0 as usize];
                 let first = self.materials.iter().position(|m| m == added).unwrap_or(id.0 as usize);
                 if first < id.0 as usize {
                     self.materials.pop();
                 }
-                MaterialId(first as u32)
+                let id = MaterialId(first as u32);
+                self.inline.insert(address, id);
+                id
             }
             MaterialRef::Named(name) => match self.named.get(name.as_str()) {
                 Some(&id) => id,
@@ -92,16 +140,27 @@ impl<'d> Library<'d> {
         let material = &self.materials[id.0 as usize];
         let weight = match material.kind {
             MaterialKind::Mix { a, b, amount } => {
-                let t = amount.mean(&self.textures).clamp(0.0, 1.0);
+                let t = amount.mean(&self.textures.textures).clamp(0.0, 1.0);
                 (1.0 - t) * self.specular_weight(a) + t * self.specular_weight(b)
             }
-            ref kind => kind.specular_weight(&self.textures),
+            ref kind => kind.specular_weight(&self.textures.textures),
         };
-        let opacity = material.opacity.map_or(1.0, |o| o.share.mean(&self.textures).clamp(0.0, 1.0));
+        let opacity = material.opacity.map_or(1.0, |o| o.share.mean(&self.textures.textures).clamp(0.0, 1.0));
         weight * opacity
     }
 
-    pub fn needs_no_uv(&self, id: MaterialId) -> bool {
+    /// What a mesh of a material must have.
+    pub fn needs(&self, id: MaterialId, textured_lamp: bool) -> Needs {
+        let uvs = textured_lamp || !self.needs_no_uv(id);
+        let any = |wanted: fn(&Texture) -> bool| uvs && self.textures.textures.iter().any(wanted);
+        Needs {
+            uvs,
+            uvs2: any(Texture::uses_second_coordinates),
+            colors: any(|texture| matches!(texture, Texture::VertexColor(_))),
+        }
+    }
+
+    fn needs_no_uv(&self, id: MaterialId) -> bool {
         let material = &self.materials[id.0 as usize];
         let parts = match material.kind {
             MaterialKind::Mix { a, b, .. } => self.needs_no_uv(a) && self.needs_no_uv(b),
@@ -120,7 +179,7 @@ impl<'d> Library<'d> {
     }
 
     pub fn finish(self) -> (Vec<Material>, Vec<Texture>) {
-        (self.materials, self.textures)
+        (self.materials, self.textures.textures)
     }
 
     fn push(&mut self, material: Material) -> MaterialId {
@@ -141,13 +200,21 @@ impl<'d> Library<'d> {
         let normal_map = material
             .normal_map
             .as_ref()
-            .and_then(|name| self.texture(name, true))
+            .and_then(|name| self.textures.get(name, Reading::Normals))
             .map(|id| (id, material.normal_strength));
+        let bump_map = material
+            .bump_map
+            .as_ref()
+            .and_then(|name| self.textures.get(name, Reading::Plain))
+            .map(|id| (id, material.bump_height));
+        let rotation = self.float(&material.rotation);
         let parts = match kind {
             MaterialKind::Mix { a, b, .. } => vec![a, b],
             _ => Vec::new(),
         };
         let mut compiled = Material::new(kind, normal_map, material.two_sided);
+        compiled.bump_map = bump_map;
+        compiled.rotation = rotation;
         if material.opacity != FloatDesc::Value(1.0) {
             let share = self.float(&material.opacity);
             compiled.opacity = Some(Opacity { share, cutoff: material.opacity_cutoff });
@@ -334,7 +401,7 @@ impl<'d> Library<'d> {
     fn color(&mut self, color: &'d ColorDesc) -> ColorSource {
         match color {
             ColorDesc::Rgb([r, g, b]) => ColorSource::Constant(Lanes::rgb(*r, *g, *b)),
-            ColorDesc::Texture(name) => match self.texture(name, false) {
+            ColorDesc::Texture(name) => match self.textures.get(name, Reading::Plain) {
                 Some(id) => ColorSource::Texture(id),
                 None => ColorSource::Constant(Lanes::ZERO),
             },
@@ -344,7 +411,7 @@ impl<'d> Library<'d> {
     fn float(&mut self, float: &'d FloatDesc) -> FloatSource {
         match float {
             FloatDesc::Value(x) => FloatSource::Constant(*x),
-            FloatDesc::Texture(name) => match self.texture(name, false) {
+            FloatDesc::Texture(name) => match self.textures.get(name, Reading::Plain) {
                 Some(id) => FloatSource::Texture(id),
                 None => FloatSource::Constant(0.0),
             },
@@ -353,125 +420,12 @@ impl<'d> Library<'d> {
 
     /// A texture, as factor on emission.
     pub fn emission(&mut self, name: &'d Sourced<String>) -> Option<u32> {
-        self.texture(name, false)
+        self.textures.get(name, Reading::Plain)
     }
 
     /// Those that were read up to now.
     pub fn textures(&self) -> &[Texture] {
-        &self.textures
-    }
-
-    /// The texture of a name, read at first use; as normals it is read without decoding.
-    fn texture(&mut self, name: &'d Sourced<String>, as_normals: bool) -> Option<u32> {
-        let key = (name.as_str(), as_normals);
-        if let Some(&known) = self.texture_ids.get(&key) {
-            return known;
-        }
-        let Some(texture) = self.desc.textures.get(name.as_str()) else {
-            self.unknown("unknown-texture", "texture", name);
-            return None;
-        };
-        let built = self.build(texture, as_normals, 0);
-        let id = built.map(|t| {
-            self.textures.push(t);
-            (self.textures.len() - 1) as u32
-        });
-        self.texture_ids.insert(key, id);
-        id
-    }
-
-    fn build(
-        &mut self,
-        texture: &'d Sourced<desc::Texture>,
-        as_normals: bool,
-        depth: u32,
-    ) -> Option<Texture> {
-        match &texture.value {
-            desc::Texture::Checker { a, b, mapping } => {
-                let even = self.checker_color(a, as_normals, depth)?.into();
-                let odd = self.checker_color(b, as_normals, depth)?.into();
-                // A square of the description is half a unit wide, one of the texture a whole one.
-                let map = uv_map(mapping, 2.0);
-                Some(Texture::Checker(Checker { even, odd, map }))
-            }
-            desc::Texture::Image(desc::Image {
-                source: desc::ImageSource::File(file),
-                color_space,
-                wrap,
-                filter,
-                mapping,
-                ..
-            }) => {
-                let path = self.desc.resolve(file);
-                let encoding = match color_space {
-                    desc::ColorSpace::Srgb if !as_normals => Encoding::Srgb,
-                    _ => Encoding::Linear,
-                };
-                match ImageTexture::from_path(&path, encoding) {
-                    Ok(mut image) => {
-                        image.wrap = match wrap[0] {
-                            desc::Wrap::Repeat | desc::Wrap::Black => Wrap::Repeat,
-                            desc::Wrap::Clamp => Wrap::Clamp,
-                            desc::Wrap::Mirror => Wrap::Mirror,
-                        };
-                        image.filter = match filter {
-                            desc::TextureFilter::Trilinear => Filter::Trilinear,
-                            desc::TextureFilter::Bilinear => Filter::Bilinear,
-                            desc::TextureFilter::Nearest => Filter::Nearest,
-                        };
-                        image.map = uv_map(mapping, 1.0);
-                        Some(Texture::Image(image))
-                    }
-                    Err(e) => {
-                        self.diagnostics.push(
-                            Diagnostic::error("bad-image", format!("cannot read `{}`: {e}", file.display()))
-                                .at(file.span),
-                        );
-                        None
-                    }
-                }
-            }
-            _ => {
-                self.diagnostics.push(
-                    Diagnostic::error("unsupported", "this kind of texture is not rendered yet")
-                        .at(texture.span),
-                );
-                None
-            }
-        }
-    }
-
-    fn checker_color(&mut self, color: &'d ColorDesc, as_normals: bool, depth: u32) -> Option<Texture> {
-        match color {
-            ColorDesc::Rgb(rgb) => Some(Texture::Constant(*rgb)),
-            ColorDesc::Texture(name) => match self.desc.textures.get(name.as_str()) {
-                Some(texture) if depth < DEEPEST_CHECKER => self.build(texture, as_normals, depth + 1),
-                Some(_) => {
-                    self.diagnostics.push(
-                        Diagnostic::error(
-                            "texture-cycle",
-                            format!("texture `{}` is nested too deeply", name.value),
-                        )
-                        .at(name.span)
-                        .help("a checker must not contain itself"),
-                    );
-                    None
-                }
-                None => {
-                    self.unknown("unknown-texture", "texture", name);
-                    None
-                }
-            },
-        }
-    }
-}
-
-fn uv_map(mapping: &desc::Mapping, factor: f32) -> UvMap {
-    match mapping {
-        desc::Mapping::Uv { scale, offset, .. } => {
-            UvMap { scale: factor * Vec2::from(*scale), offset: factor * Vec2::from(*offset) }
-        }
-        desc::Mapping::Planar { .. } => UvMap::default(),
+        &self.textures.textures
     }
 }
 

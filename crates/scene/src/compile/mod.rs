@@ -3,6 +3,7 @@
 mod lights;
 mod materials;
 mod shapes;
+mod textures;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -97,7 +98,7 @@ impl<'d> Compiler<'d> {
         for light in &self.desc.lights {
             self.add_light(light);
         }
-        self.diagnostics.append(&mut self.library.diagnostics);
+        self.diagnostics.append(&mut self.library.take_diagnostics());
         if self.lights.is_empty() {
             self.diagnostics.push(
                 Diagnostic::warning("no-light", "the scene has no light: the picture will be black")
@@ -152,11 +153,8 @@ impl<'d> Compiler<'d> {
         self.aim_at(placed.material, &placed.solid, None);
         let mut solid = placed.solid;
         let textured = light.is_some_and(|id| self.light_textures[id.0 as usize].is_some());
-        if let Solid::Mesh(mesh) = &mut solid
-            && !textured
-            && self.library.needs_no_uv(placed.material)
-        {
-            mesh.uvs = Vec::new();
+        if let Solid::Mesh(mesh) = &mut solid {
+            self.library.needs(placed.material, textured).strip(mesh);
         }
         let object = self.object(solid, placed.material, light, true);
         self.outer.push(Outer::Object(object));
@@ -213,10 +211,7 @@ impl<'d> Compiler<'d> {
         let shape = match solid {
             Solid::Mesh(mesh) => {
                 self.triangles += mesh.indices.len() as u64;
-                self.mesh_bytes += (size_of_val(&mesh.positions[..])
-                    + size_of_val(&mesh.normals[..])
-                    + size_of_val(&mesh.uvs[..])
-                    + size_of_val(&mesh.indices[..])) as u64;
+                self.mesh_bytes += mesh.memory_bytes() as u64;
                 if outer {
                     self.geometry.add_triangles(&mesh.positions, &mesh.indices);
                 }
@@ -279,7 +274,12 @@ impl<'d> Compiler<'d> {
                 self.bounds = self.bounds.union(transform.bounds(&bvh.bounds()));
                 // A group holds no instances, so this one cannot be refused.
                 if self.geometry.add_instance(bvh, transform).is_ok() {
-                    self.outer.push(Outer::Instance { group: id, render_from_object: transform, material });
+                    self.outer.push(Outer::Instance {
+                        group: id,
+                        render_from_object: transform,
+                        material,
+                        first: 0,
+                    });
                     self.outer_names.push(instance.name.as_ref().unwrap_or(&instance.group).clone());
                 }
             }
@@ -389,8 +389,10 @@ impl<'d> Compiler<'d> {
         let absorbs = materials.iter().any(|m| !m.absorption().is_zero());
         let by_chance =
             materials.iter().any(|m| m.opacity.is_some() || matches!(m.kind, MaterialKind::Mix { .. }));
+        let instance_numbers = number_instances(&mut self.outer, &groups);
         let mut scene = Scene {
             by_chance,
+            instance_numbers,
             bvh,
             outer: self.outer,
             outer_names: self.outer_names,
@@ -453,4 +455,19 @@ fn built_camera(camera: &CameraDesc, size: [u32; 2]) -> Result<Camera, CameraErr
         CameraKind::Spherical { mapping } => Camera::spherical(position, look_at, up, mapping, size),
     };
     built?.shifted(Vec2::from(camera.shift))
+}
+
+/// Numbers the objects of instances on from those outside of groups; returns the first number and the place of each.
+fn number_instances(outer: &mut [Outer], groups: &[Group]) -> Vec<(u32, u32)> {
+    let mut next = outer.len() as u32;
+    let mut numbers = Vec::new();
+    for (place, item) in outer.iter_mut().enumerate() {
+        if let Outer::Instance { group, first, .. } = item {
+            *first = next;
+            numbers.push((next, place as u32));
+            // More than can be numbered share the last numbers: their second coordinates are then lost.
+            next = next.saturating_add(groups[*group as usize].objects.len() as u32);
+        }
+    }
+    numbers
 }

@@ -1,6 +1,7 @@
 //! Materials: what a surface is made of, from which the BSDF at a point is made.
 
 mod kind;
+mod relief;
 mod source;
 mod varied;
 
@@ -8,7 +9,9 @@ use bsdf::{Bsdf, BsdfKind};
 use color::Lanes;
 use math::{Frame, Vec3};
 
+use crate::attributes::Owner;
 use crate::{Medium, SurfaceInteraction};
+use relief::facing;
 
 pub use kind::MaterialKind;
 pub use source::{ColorSource, FloatSource, RoughnessSource};
@@ -16,27 +19,6 @@ pub(crate) use source::{Lookup, Place};
 pub use varied::{
     CoatedConductorMaterial, CoatedDiffuseMaterial, ConductorMaterial, DielectricMaterial, PrincipledMaterial,
 };
-
-/// Cosine to which a shading normal is bent back where it faces away from a viewer who sees the surface's other side.
-const BENT_COSINE: f32 = 0.01;
-
-/// The shading normal, unless `wo` lies between its horizon and the geometric normal's, as at the silhouette of a
-/// smooth mesh: then it is tilted toward `wo` until both agree on the side, where otherwise nothing would be
-/// scattered.
-#[inline]
-fn facing(ns: Vec3, ng: Vec3, wo: Vec3) -> Vec3 {
-    let (cos, side) = (wo.dot(ns), wo.dot(ng));
-    if cos * side > 0.0 || side == 0.0 {
-        return ns;
-    }
-    (ns + wo * (BENT_COSINE.copysign(side) - cos)).normalize()
-}
-
-/// The shading frame whose x is the tangent.
-#[inline(never)]
-fn along_tangent(ns: Vec3, dpdu: Vec3) -> Frame {
-    Frame::from_zx(ns, dpdu)
-}
 
 /// Index of a material in the scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -58,6 +40,10 @@ pub struct Material {
     pub kind: MaterialKind,
     /// Tangent-space normal map (texture index) and its strength.
     pub normal_map: Option<(u32, f32)>,
+    /// Heights (texture index) and their unit, in units of length.
+    pub bump_map: Option<(u32, f32)>,
+    /// Turns the tangent, from growing u toward growing v, in degrees.
+    pub rotation: FloatSource,
     /// Whether the back scatters as the front does; else it is black.
     pub two_sided: bool,
     /// How much of the surface is there; `None`: all of it.
@@ -76,11 +62,23 @@ impl Material {
     pub fn new(kind: MaterialKind, normal_map: Option<(u32, f32)>, two_sided: bool) -> Self {
         let two_sided = two_sided || kind.is_crossed();
         let oriented = kind.is_anisotropic();
-        let mut material =
-            Self { kind, normal_map, two_sided, opacity: None, part_of: None, oriented, constant: None };
+        let mut material = Self {
+            kind,
+            normal_map,
+            bump_map: None,
+            rotation: FloatSource::Constant(0.0),
+            two_sided,
+            opacity: None,
+            part_of: None,
+            oriented,
+            constant: None,
+        };
         if material.kind.is_uniform() && material.medium(MaterialId(0)).is_none() {
-            material.constant =
-                Some(material.kind.bsdf(None, 1.0, &Lookup { textures: &[], footprint: 0.0 }));
+            material.constant = Some(material.kind.bsdf(
+                None,
+                1.0,
+                &Lookup { textures: &[], of: Owner::Unknown, footprint: 0.0 },
+            ));
         }
         material
     }
@@ -113,7 +111,7 @@ impl Material {
             kind => kind.is_uniform(),
         };
         let opacity = self.opacity.is_none_or(|o| o.share.is_constant());
-        kind && opacity && self.normal_map.is_none() && !self.oriented
+        kind && opacity && self.normal_map.is_none() && self.bump_map.is_none() && !self.oriented
     }
 
     /// The BSDF at `hit`; `eta` is the resolved relative index where the material is a dielectric.
@@ -124,33 +122,12 @@ impl Material {
             Some(kind) => kind,
             None => self.kind.bsdf(Some(&{ *hit }), eta, lookup),
         };
-        let ns = match self.normal_map {
-            None => hit.ns,
-            Some((texture, strength)) => self.bent_normal(&{ *hit }, texture, strength, lookup),
+        let ns = match (self.normal_map, self.bump_map) {
+            (None, None) => facing(hit.ns, hit.ng, wo),
+            _ => self.bent_normal(&{ *hit }, wo, lookup),
         };
-        let ns = facing(ns, hit.ng, wo);
-        let frame = if self.oriented { along_tangent(ns, hit.dpdu) } else { Frame::from_z(ns) };
+        let frame =
+            if self.oriented { self.oriented_frame(&{ *hit }, ns, lookup) } else { Frame::from_z(ns) };
         Bsdf::new(kind, frame, hit.ng)
-    }
-
-    #[inline(never)]
-    fn bent_normal(
-        &self,
-        hit: &SurfaceInteraction,
-        texture: u32,
-        strength: f32,
-        lookup: &Lookup<'_>,
-    ) -> Vec3 {
-        let base = Frame::from_zx(hit.ns, hit.dpdu);
-        let local =
-            lookup.textures[texture as usize].evaluate_normal(hit.uv, lookup.footprint * hit.uv_per_length);
-        let bent = Vec3::new(local.x * strength, local.y * strength, local.z.max(1e-3));
-        let mut ns = base.to_world(bent).normalize();
-        // A normal that turned past the geometric horizon is brought back to it.
-        let c = ns.dot(hit.ng);
-        if c < 0.01 {
-            ns = (ns + hit.ng * (0.01 - c)).normalize();
-        }
-        ns
     }
 }

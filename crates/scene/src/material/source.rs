@@ -1,5 +1,7 @@
 use color::Lanes;
 
+use crate::attributes::Owner;
+use crate::texture::TexturePoint;
 use crate::{SurfaceInteraction, Texture};
 
 /// A colour that may vary over the surface.
@@ -31,7 +33,7 @@ impl ColorSource {
         match self {
             Self::Constant(c) => c.mean(),
             Self::Texture(t) => {
-                let [r, g, b] = textures[t as usize].mean();
+                let [r, g, b] = textures[t as usize].mean(textures);
                 (r + g + b) / 3.0
             }
         }
@@ -117,6 +119,8 @@ impl RoughnessSource {
 /// What evaluating materials needs to look up.
 pub(crate) struct Lookup<'a> {
     pub textures: &'a [Texture],
+    /// What the points that are looked up are of.
+    pub of: Owner<'a>,
     /// Width of the ray's footprint on the surface, in units of length.
     pub footprint: f32,
 }
@@ -130,8 +134,10 @@ pub(crate) struct Place<'a> {
 impl Place<'_> {
     fn texture(&self, texture: u32) -> [f32; 3] {
         match self.hit {
-            Some(hit) => self.lookup.textures[texture as usize]
-                .evaluate(hit.uv, self.lookup.footprint * hit.uv_per_length),
+            Some(hit) => {
+                let at = TexturePoint::of_hit(hit, self.lookup.footprint, self.lookup.of);
+                self.lookup.textures[texture as usize].evaluate(self.lookup.textures, &at)
+            }
             None => [0.0; 3],
         }
     }

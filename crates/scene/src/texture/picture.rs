@@ -1,14 +1,10 @@
-use std::fmt;
-use std::path::{Path, PathBuf};
-use std::sync::LazyLock;
+use std::path::Path;
 
-use image::{DynamicImage, ImageReader};
-use math::Vec2;
-
-use super::UvMap;
+use super::decode::{Numbers, Pixels, TextureError};
+use super::texels::{Curve, LINEAR, SRGB, Texels, fits_half, to_half};
 
 /// How an image's numbers stand for light.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Encoding {
     /// sRGB transfer curve (IEC 61966-2-1) for 8- and 16-bit images; floating-point images are linear.
     #[default]
@@ -17,308 +13,255 @@ pub enum Encoding {
     Linear,
 }
 
-/// What lies beyond the picture's edges.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Wrap {
-    /// The picture again.
-    #[default]
-    Repeat,
-    /// The texels at the edge.
-    Clamp,
-    /// The picture mirrored.
-    Mirror,
+/// What is kept of an image.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Wanted {
+    /// Red, green and blue.
+    Color,
+    /// Opacity.
+    Alpha,
+    /// Both.
+    Both,
 }
 
-/// How texels become a colour.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Filter {
-    /// The texel that holds the point.
-    Nearest,
-    /// Four texels of the full picture, whatever the footprint.
-    Bilinear,
-    /// Bilinear in the two levels of the pyramid whose texels bracket the footprint.
-    #[default]
-    Trilinear,
-}
-
-/// Why an image is no texture.
-#[derive(Debug)]
-pub enum TextureError {
-    /// The file could not be read.
-    Unreadable(PathBuf, std::io::Error),
-    /// The bytes are no PNG, JPEG or Radiance HDR, or a broken one.
-    Undecodable(image::ImageError),
-    /// The picture has no texel.
-    Empty,
-    /// A value is NaN or infinite.
-    NotFinite,
-}
-
-impl fmt::Display for TextureError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Unreadable(path, error) => write!(f, "cannot read {}: {error}", path.display()),
-            Self::Undecodable(error) => write!(f, "cannot decode the image: {error}"),
-            Self::Empty => f.write_str("the image has no pixel"),
-            Self::NotFinite => f.write_str("the image holds a value that is not finite"),
-        }
-    }
-}
-
-impl std::error::Error for TextureError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            Self::Unreadable(_, error) => Some(error),
-            Self::Undecodable(error) => Some(error),
-            Self::Empty | Self::NotFinite => None,
-        }
-    }
-}
-
-/// A picture with its pyramid. Full size is stored as 3 bytes a texel for 8-bit sources and 12 for others; the
-/// smaller levels add a third as many texels of 12 bytes.
+/// An image in memory: 1 to 4 channels, each a byte for 8-bit files, 2 bytes for 16-bit ones, 2 for floating-point ones in the
+/// range of half floats that are coloured, else 4. One channel stands for three that are equal; opacity is not kept where
+/// it is 1 everywhere.
 #[derive(Clone, Debug)]
-pub struct ImageTexture {
-    width: usize,
-    height: usize,
-    base: Base,
-    /// Levels 1.., each half the size of the last (rounded down), box-filtered in linear light.
+pub struct Picture {
+    /// 0 (opacity alone), 1 or 3.
+    colors: usize,
+    has_alpha: bool,
+    curve: &'static Curve,
     levels: Vec<Level>,
-    mean: [f32; 3],
-    /// Behaviour beyond the edges.
-    pub wrap: Wrap,
-    /// Interpolation.
-    pub filter: Filter,
-    /// Mapping of texture coordinates.
-    pub map: UvMap,
+    mean: [f32; 4],
 }
 
 #[derive(Clone, Debug)]
-enum Base {
-    Bytes(Vec<[u8; 3]>, &'static [f32; 256]),
-    Floats(Vec<[f32; 3]>),
+pub(super) struct Level {
+    pub width: usize,
+    pub height: usize,
+    pub texels: Texels,
 }
 
-#[derive(Clone, Debug)]
-struct Level {
-    width: usize,
-    height: usize,
-    texels: Vec<[f32; 3]>,
-}
-
-static SRGB: LazyLock<[f32; 256]> =
-    LazyLock::new(|| std::array::from_fn(|i| srgb_to_linear(i as f64 / 255.0)));
-static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| std::array::from_fn(|i| (i as f64 / 255.0) as f32));
-
-fn srgb_to_linear(x: f64) -> f32 {
-    (if x <= 0.04045 { x / 12.92 } else { ((x + 0.055) / 1.055).powf(2.4) }) as f32
-}
-
-impl ImageTexture {
-    /// Reads and decodes a PNG, JPEG or Radiance HDR file; the content tells which.
-    pub fn from_path(path: &Path, encoding: Encoding) -> Result<Self, TextureError> {
+impl Picture {
+    /// Reads a file, full size only.
+    ///
+    /// # Errors
+    /// Where the file cannot be read or is no picture of a known kind, is larger than 65536 texels along a side or 1 GiB, or
+    /// holds a value that is not finite.
+    pub fn from_path(path: &Path, encoding: Encoding, wanted: Wanted) -> Result<Self, TextureError> {
         let bytes = std::fs::read(path).map_err(|e| TextureError::Unreadable(path.to_owned(), e))?;
-        Self::from_bytes(&bytes, encoding)
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        Self::from_bytes(&bytes, &name, encoding, wanted)
     }
 
-    /// Decodes a PNG, JPEG or Radiance HDR file in memory. Alpha is dropped.
-    pub fn from_bytes(bytes: &[u8], encoding: Encoding) -> Result<Self, TextureError> {
-        let reader = ImageReader::new(std::io::Cursor::new(bytes)).with_guessed_format();
-        let decoded = reader.map_err(image::ImageError::IoError).and_then(ImageReader::decode);
-        Self::from_image(decoded.map_err(TextureError::Undecodable)?, encoding)
+    /// Decodes the bytes of a file, full size only; `name` tells the format where they do not (TGA).
+    ///
+    /// # Errors
+    /// As [`Self::from_path`].
+    pub fn from_bytes(
+        bytes: &[u8],
+        name: &str,
+        encoding: Encoding,
+        wanted: Wanted,
+    ) -> Result<Self, TextureError> {
+        Self::new(Pixels::decode(bytes, name)?, encoding, wanted)
     }
 
-    /// From a decoded image.
-    pub fn from_image(image: DynamicImage, encoding: Encoding) -> Result<Self, TextureError> {
-        let (width, height) = (image.width() as usize, image.height() as usize);
-        let base = match &image {
-            DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
-                Base::Floats(image.to_rgb32f().pixels().map(|p| p.0).collect())
+    /// From decoded numbers, full size only.
+    ///
+    /// # Errors
+    /// Where there is no texel, or a value is not finite.
+    pub fn new(pixels: Pixels, encoding: Encoding, wanted: Wanted) -> Result<Self, TextureError> {
+        let pixels = pixels.kept(wanted)?;
+        let (width, height) = (pixels.width, pixels.height);
+        let (colors, has_alpha) = match (pixels.channels, wanted) {
+            (1, Wanted::Alpha) => (0, true),
+            (1, _) => (1, false),
+            (2, _) => (1, true),
+            (3, _) => (3, false),
+            _ => (3, true),
+        };
+        let mut curve = &*LINEAR;
+        let stride = colors + usize::from(has_alpha);
+        let is_alpha = |i: usize| has_alpha && i % stride == colors;
+        let texels = match pixels.numbers {
+            Numbers::Bytes(bytes) => {
+                if encoding == Encoding::Srgb {
+                    curve = &*SRGB;
+                }
+                Texels::Bytes(bytes)
             }
-            DynamicImage::ImageLuma16(_)
-            | DynamicImage::ImageLumaA16(_)
-            | DynamicImage::ImageRgb16(_)
-            | DynamicImage::ImageRgba16(_) => {
-                let decode = |x: u16| match encoding {
-                    Encoding::Srgb => srgb_to_linear(f64::from(x) / 65535.0),
-                    Encoding::Linear => (f64::from(x) / 65535.0) as f32,
-                };
-                Base::Floats(image.to_rgb16().pixels().map(|p| p.0.map(decode)).collect())
-            }
-            _ => {
-                let table = match encoding {
-                    Encoding::Srgb => &*SRGB,
-                    Encoding::Linear => &*LINEAR,
-                };
-                Base::Bytes(image.to_rgb8().pixels().map(|p| p.0).collect(), table)
+            Numbers::Words(words) => match encoding {
+                Encoding::Linear => Texels::Words(words),
+                Encoding::Srgb => {
+                    let linear = |(i, x): (usize, &u16)| {
+                        let share = f32::from(*x) / 65535.0;
+                        to_half(if is_alpha(i) { share } else { color::srgb_to_linear(share) })
+                    };
+                    Texels::Halves(words.iter().enumerate().map(linear).collect())
+                }
+            },
+            Numbers::Floats(floats) => {
+                if !floats.iter().all(|x| x.is_finite()) {
+                    return Err(TextureError::NotFinite);
+                }
+                // Single channels are data, such as heights, of which more digits may count.
+                if colors == 3 && floats.iter().all(|x| fits_half(*x)) {
+                    Texels::Halves(floats.iter().map(|x| to_half(*x)).collect())
+                } else {
+                    Texels::Floats(floats)
+                }
             }
         };
-        Self::with_base(width, height, base)
+        let mut picture =
+            Self { colors, has_alpha, curve, levels: vec![Level { width, height, texels }], mean: [0.0; 4] };
+        picture.mean = picture.mean_of_all();
+        Ok(picture)
     }
 
-    /// From linear RGB, row by row from the top. `TextureError::Empty` also where the counts disagree.
-    pub fn from_linear(width: usize, height: usize, texels: Vec<[f32; 3]>) -> Result<Self, TextureError> {
-        let fits = width.checked_mul(height) == Some(texels.len());
-        if fits { Self::with_base(width, height, Base::Floats(texels)) } else { Err(TextureError::Empty) }
+    /// A picture of one texel.
+    pub fn one(rgb: [f32; 3]) -> Self {
+        let texels = Texels::Floats(rgb.to_vec());
+        let levels = vec![Level { width: 1, height: 1, texels }];
+        let [r, g, b] = rgb;
+        Self { colors: 3, has_alpha: false, curve: &LINEAR, levels, mean: [r, g, b, 1.0] }
     }
 
-    fn with_base(width: usize, height: usize, base: Base) -> Result<Self, TextureError> {
-        if width == 0 || height == 0 {
-            return Err(TextureError::Empty);
+    fn mean_of_all(&self) -> [f32; 4] {
+        let base = &self.levels[0];
+        let mut sum = [0f64; 4];
+        for i in 0..base.width * base.height {
+            let [r, g, b] = self.rgb(base, i);
+            sum.iter_mut().zip([r, g, b, self.alpha(base, i)]).for_each(|(s, x)| *s += f64::from(x));
         }
-        let mut levels: Vec<Level> = Vec::new();
-        let mut mean = [0f64; 3];
-        for y in 0..height {
-            for x in 0..width {
-                let texel = base.texel(y * width + x);
-                mean.iter_mut().zip(texel).for_each(|(m, t)| *m += f64::from(t));
-            }
-        }
-        let count = (width * height) as f64;
-        let mean = mean.map(|m| (m / count) as f32);
-        if !mean.iter().all(|m| m.is_finite()) {
-            return Err(TextureError::NotFinite);
-        }
-        let (mut w, mut h) = (width, height);
+        sum.map(|s| (s / (base.width * base.height) as f64) as f32)
+    }
+
+    /// The same with smaller versions of itself, each half the size of the last (rounded down) and the mean, in linear light, of
+    /// the texels that it stands for; a third more memory.
+    pub fn with_pyramid(mut self) -> Self {
+        let (stride, colors) = (self.colors + usize::from(self.has_alpha), self.colors);
+        let (has_alpha, curve) = (self.has_alpha, self.curve);
+        let curve_of = |i: usize| if has_alpha && i % stride == colors { &*LINEAR } else { curve };
+        let (mut w, mut h) = (self.levels[0].width, self.levels[0].height);
+        let mut last: Vec<f32> = Vec::new();
         while w > 1 || h > 1 {
-            let next = match levels.last() {
-                None => halved(w, h, |i| base.texel(i)),
-                Some(level) => halved(w, h, |i| level.texels[i]),
+            let base = &self.levels[0].texels;
+            let (width, height) = ((w / 2).max(1), (h / 2).max(1));
+            // Each level is made of the unrounded one before.
+            last = if self.levels.len() == 1 {
+                halved([w, h], [width, height], stride, |i| base.get(i, curve_of(i)))
+            } else {
+                halved([w, h], [width, height], stride, |i| last[i])
             };
-            (w, h) = (next.width, next.height);
-            levels.push(next);
+            let texels = base.like(&last, curve_of);
+            self.levels.push(Level { width, height, texels });
+            (w, h) = (width, height);
         }
-        let (wrap, filter, map) = (Wrap::default(), Filter::default(), UvMap::default());
-        Ok(Self { width, height, base, levels, mean, wrap, filter, map })
+        self
     }
 
     /// Texels across and down.
     pub fn size(&self) -> [usize; 2] {
-        [self.width, self.height]
+        [self.levels[0].width, self.levels[0].height]
     }
 
-    /// Linear RGB of a pixel, counted row by row from the top.
+    /// Linear RGB of a texel, counted row by row from the top.
     ///
     /// # Panics
-    /// Where there is no such pixel.
-    pub(crate) fn pixel(&self, index: usize) -> [f32; 3] {
-        self.base.texel(index)
+    /// Where there is no such texel.
+    pub fn pixel(&self, index: usize) -> [f32; 3] {
+        self.rgb(&self.levels[0], index)
     }
 
     /// Bytes held.
     pub fn memory_bytes(&self) -> usize {
-        let base = match &self.base {
-            Base::Bytes(texels, _) => texels.len() * 3,
-            Base::Floats(texels) => texels.len() * 12,
-        };
-        base + self.levels.iter().map(|l| l.texels.len() * 12).sum::<usize>()
+        self.levels.iter().map(|level| level.texels.memory_bytes()).sum()
     }
 
-    pub(super) fn mean(&self) -> [f32; 3] {
+    /// Mean of red, green, blue and opacity.
+    pub fn mean(&self) -> [f32; 4] {
         self.mean
     }
 
-    pub(super) fn evaluate(&self, uv: Vec2, footprint: f32) -> [f32; 3] {
-        let uv = self.map.apply(uv);
-        match self.filter {
-            Filter::Nearest => {
-                let (w, h) = (self.width as f32, self.height as f32);
-                self.texel(0, (uv.x * w).floor() as i64, ((1.0 - uv.y) * h).floor() as i64)
-            }
-            Filter::Bilinear => self.bilinear(0, uv),
-            Filter::Trilinear => {
-                let texels =
-                    self.map.scale.abs() * footprint * Vec2::new(self.width as f32, self.height as f32);
-                // A level's texel is 2^level wide; a footprint of one texel or less reads the full picture.
-                let level = texels.max_element().log2().clamp(0.0, self.levels.len() as f32);
-                let low = level as usize;
-                let t = level - low as f32;
-                let a = self.bilinear(low, uv);
-                if t == 0.0 { a } else { lerp(a, self.bilinear(low + 1, uv), t) }
-            }
+    pub(super) fn levels(&self) -> &[Level] {
+        &self.levels
+    }
+
+    /// The bytes of three colours each, and what they stand for, where a level is stored so.
+    pub(super) fn plain<'a>(&self, level: &'a Level) -> Option<(&'a [u8], &'static [f32; 256])> {
+        match &level.texels {
+            Texels::Bytes(bytes) if self.colors == 3 && !self.has_alpha => Some((bytes, &self.curve.values)),
+            _ => None,
         }
     }
 
-    fn bilinear(&self, level: usize, uv: Vec2) -> [f32; 3] {
-        let [w, h] = self.level_size(level);
-        let (x, y) = (uv.x * w as f32 - 0.5, (1.0 - uv.y) * h as f32 - 0.5);
-        let (x0, y0) = (x.floor(), y.floor());
-        let (i, j) = (x0 as i64, y0 as i64);
-        let row = |j: i64| lerp(self.texel(level, i, j), self.texel(level, i.saturating_add(1), j), x - x0);
-        lerp(row(j), row(j.saturating_add(1)), y - y0)
-    }
-
-    fn level_size(&self, level: usize) -> [usize; 2] {
-        match level {
-            0 => [self.width, self.height],
-            _ => [self.levels[level - 1].width, self.levels[level - 1].height],
+    #[inline]
+    pub(super) fn rgb(&self, level: &Level, index: usize) -> [f32; 3] {
+        let i = index * (self.colors + usize::from(self.has_alpha));
+        match self.colors {
+            3 => std::array::from_fn(|c| level.texels.get(i + c, self.curve)),
+            1 => [level.texels.get(i, self.curve); 3],
+            _ => [1.0; 3],
         }
     }
 
-    fn texel(&self, level: usize, x: i64, y: i64) -> [f32; 3] {
-        let [w, h] = self.level_size(level);
-        let index = self.wrap.index(y, h) * w + self.wrap.index(x, w);
-        match level {
-            0 => self.base.texel(index),
-            _ => self.levels[level - 1].texels[index],
-        }
+    #[inline]
+    pub(super) fn alpha(&self, level: &Level, index: usize) -> f32 {
+        if self.has_alpha { level.texels.get(index * (self.colors + 1) + self.colors, &LINEAR) } else { 1.0 }
+    }
+
+    /// Whether it holds what is wanted.
+    pub fn holds(&self, wanted: Wanted) -> bool {
+        wanted == Wanted::Alpha || self.colors > 0
     }
 }
 
-impl Wrap {
-    fn index(self, i: i64, n: usize) -> usize {
-        let n = n as i64;
-        let i = match self {
-            Self::Repeat => i.rem_euclid(n),
-            Self::Clamp => i.clamp(0, n - 1),
-            Self::Mirror => {
-                let k = i.rem_euclid(2 * n);
-                if k < n { k } else { 2 * n - 1 - k }
-            }
-        };
-        i as usize
-    }
-}
-
-impl Base {
-    fn texel(&self, index: usize) -> [f32; 3] {
-        match self {
-            Self::Bytes(texels, table) => texels[index].map(|b| table[usize::from(b)]),
-            Self::Floats(texels) => texels[index],
-        }
-    }
-}
-
-fn lerp(a: [f32; 3], b: [f32; 3], t: f32) -> [f32; 3] {
-    std::array::from_fn(|c| a[c] + (b[c] - a[c]) * t)
-}
-
-/// The next level: each texel is the mean of the box of texels that it covers, parts of texels included, so that
-/// odd sizes keep the mean too.
-fn halved(w: usize, h: usize, texel: impl Fn(usize) -> [f32; 3]) -> Level {
-    let (width, height) = ((w / 2).max(1), (h / 2).max(1));
-    let mut texels = Vec::with_capacity(width * height);
+/// The next level: each texel is the mean of the box of texels that it covers, parts of texels included, so that odd
+/// sizes keep the mean too.
+fn halved(
+    [w, h]: [usize; 2],
+    [width, height]: [usize; 2],
+    stride: usize,
+    value: impl Fn(usize) -> f32,
+) -> Vec<f32> {
+    let mut out = Vec::with_capacity(width * height * stride);
+    let even = w == 2 * width && h == 2 * height;
     for y in 0..height {
+        let rows: Vec<(usize, f32)> = cover(y, height, h).collect();
         for x in 0..width {
-            let mut sum = [0f64; 3];
-            for (j, wy) in cover(y, height, h) {
-                for (i, wx) in cover(x, width, w) {
-                    let t = texel(j * w + i);
-                    sum.iter_mut().zip(t).for_each(|(s, t)| *s += wx * wy * f64::from(t));
-                }
+            if even {
+                let i = (2 * y * w + 2 * x) * stride;
+                let below = i + w * stride;
+                out.extend((0..stride).map(|c| {
+                    let pairs = (value(i + c) + value(i + stride + c))
+                        + (value(below + c) + value(below + stride + c));
+                    0.25 * pairs
+                }));
+                continue;
             }
-            texels.push(sum.map(|s| s as f32));
+            for c in 0..stride {
+                let mut sum = 0.0;
+                for (j, wy) in &rows {
+                    for (i, wx) in cover(x, width, w) {
+                        sum += wx * wy * value((j * w + i) * stride + c);
+                    }
+                }
+                out.push(sum);
+            }
         }
     }
-    Level { width, height, texels }
+    out
 }
 
 /// Of `n` texels those under texel `i` of `m` ≤ `n`, each with its share (sum 1).
-fn cover(i: usize, m: usize, n: usize) -> impl Iterator<Item = (usize, f64)> {
+fn cover(i: usize, m: usize, n: usize) -> impl Iterator<Item = (usize, f32)> {
     // In units of 1/m of a texel: the box is [i·n, (i + 1)·n), texel k is [k·m, (k + 1)·m).
     let (begin, end) = (i * n, (i + 1) * n);
     (begin / m..end.div_ceil(m)).map(move |k| {
         let overlap = ((k + 1) * m).min(end) - (k * m).max(begin);
-        (k, overlap as f64 / n as f64)
+        (k, overlap as f32 / n as f32)
     })
 }
