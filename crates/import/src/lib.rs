@@ -1,7 +1,7 @@
 //! Scenes of other programs as [`SceneDesc`](scenefile::SceneDesc)s.
 //!
 //! [`load`] reads what Nephroid knows, by the file's extension: its own TOML, pbrt-v4 (v3 where its names differ),
-//! glTF 2.0, and the mesh files OBJ and PLY.
+//! Mitsuba 3 (0.6 where it differs), glTF 2.0, and the mesh files OBJ and PLY.
 //! What a format has and Nephroid does not is said once, with its place and what is done instead, as a warning.
 //! [`outsource`] moves large meshes of a description into PLY files, so that it can be written as TOML.
 
@@ -9,6 +9,7 @@ mod curve;
 mod file;
 mod gltf;
 mod matrix;
+mod mitsuba;
 mod names;
 mod obj;
 mod outsource;
@@ -26,15 +27,17 @@ use scenefile::{Diagnostic, Loaded, Severity, Sources, Span};
 
 pub use outsource::{OutsourceError, outsource};
 
-/// Reads a scene in any known format: `.pbrt` and `.pbrt.gz` as pbrt, `.gltf` and `.glb` as glTF, `.obj`
-/// and `.ply` as meshes, everything else as TOML.
+/// Reads a scene in any known format: `.pbrt` and `.pbrt.gz` as pbrt, `.xml` as Mitsuba's, `.gltf` and `.glb` as glTF,
+/// `.obj` and `.ply` as meshes, everything else as TOML.
 ///
-/// `overrides` replace values of TOML files, as [`scenefile::load`] takes them; with another format they are errors.
+/// `overrides` replace values of TOML files, as [`scenefile::load`] takes them, and each `name=value` what Mitsuba's
+/// `<default>` says; with another format they are errors.
 /// Never panics; memory is bounded by the size of the files.
 pub fn load(path: &Path, overrides: &[String]) -> Loaded {
     let format = Format::of(path);
     match format {
         Format::Native => return scenefile::load(path, overrides),
+        Format::Mitsuba => return mitsuba::load(path, overrides),
         _ if !overrides.is_empty() => {}
         Format::Pbrt => return pbrt::load(path),
         Format::Gltf => return gltf::load(path),
@@ -70,6 +73,8 @@ pub enum Format {
     Native,
     /// pbrt-v4 or v3.
     Pbrt,
+    /// Mitsuba 3 or 0.6.
+    Mitsuba,
     /// glTF 2.0, text or binary.
     Gltf,
     /// A Wavefront model.
@@ -85,6 +90,7 @@ impl Format {
         let is = |extension: &str| name.ends_with(extension);
         match () {
             () if is(".pbrt") || is(".pbrt.gz") => Self::Pbrt,
+            () if is(".xml") => Self::Mitsuba,
             () if is(".gltf") || is(".glb") => Self::Gltf,
             () if is(".obj") => Self::Obj,
             () if is(".ply") => Self::Ply,

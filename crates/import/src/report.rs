@@ -67,3 +67,24 @@ impl Report {
         all
     }
 }
+
+/// The known name nearest to a misspelt one, if any is near.
+pub(crate) fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    let name: Vec<char> = name.chars().take(64).collect();
+    let distance = |other: &str| {
+        let other: Vec<char> = other.chars().collect();
+        let mut row: Vec<usize> = (0..=other.len()).collect();
+        for (i, a) in name.iter().enumerate() {
+            let mut diagonal = row[0];
+            row[0] = i + 1;
+            for (j, b) in other.iter().enumerate() {
+                let kept = diagonal + usize::from(a != b);
+                diagonal = row[j + 1];
+                row[j + 1] = kept.min(diagonal + 1).min(row[j] + 1);
+            }
+        }
+        row[other.len()]
+    };
+    let near = 1 + name.len() / 4;
+    known.map(|k| (distance(k), k)).filter(|(d, _)| *d <= near).min().map(|(_, k)| k)
+}
