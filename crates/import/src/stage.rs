@@ -18,8 +18,8 @@ const FOV: f64 = 40.0;
 const FILLED: f64 = 0.92;
 /// Degrees to the right of the front and above the horizon from where it is seen.
 const FROM: [f64; 2] = [30.0, 20.0];
-/// What is flatter than this, of its height or width, is seen from the front.
-const FLAT: f64 = 0.2;
+/// What is flatter than the first, of its height or width, is seen from the front; what is deeper than the second from there.
+const FLAT: [f64; 2] = [0.2, 0.8];
 /// Vertices of instances that are looked at one by one.
 const MANY: usize = 4 << 20;
 
@@ -38,8 +38,9 @@ pub(crate) fn frame(desc: &mut SceneDesc) -> bool {
     if !size.iter().all(|x| x.is_finite()) || size.iter().all(|x| *x <= 0.0) {
         return false;
     }
-    let [azimuth, height] =
-        if size[2] < FLAT * size[0].max(size[1]) { [0.0; 2] } else { FROM.map(f64::to_radians) };
+    let depth = size[2] / size[0].max(size[1]);
+    let share = ((depth - FLAT[0]) / (FLAT[1] - FLAT[0])).clamp(0.0, 1.0);
+    let [azimuth, height] = FROM.map(|degrees| (share * degrees).to_radians());
     let back = [azimuth.sin() * height.cos(), height.sin(), azimuth.cos() * height.cos()];
     let right = unit(cross([0.0, 1.0, 0.0], back)).unwrap_or([1.0, 0.0, 0.0]);
     let up = cross(back, right);
