@@ -17,7 +17,7 @@ const FOV: f64 = 40.0;
 /// Share of the picture that what is framed fills.
 const FILLED: f64 = 0.92;
 /// Degrees to the right of the front and above the horizon from where it is seen.
-const FROM: [f64; 2] = [30.0, 20.0];
+const FROM: [f64; 2] = [25.0, 17.0];
 /// What is flatter than the first, of its height or width, is seen from the front; what is deeper than the second from there.
 const FLAT: [f64; 2] = [0.2, 0.8];
 /// Vertices of instances that are looked at one by one.
