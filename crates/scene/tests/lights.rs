@@ -204,9 +204,10 @@ fn le_positions_follow_their_density() {
             (Geometry::Triangles(_), _) if case.name.ends_with("quad") => {
                 Sheet::Plane(first.p, Frame::from_z(first.n))
             }
-            (Geometry::Nothing, Light::Directional(_) | Light::Environment(_) | Light::Sky(_)) => {
-                Sheet::Plane(-3.0 * first.w, Frame::from_z(first.w))
-            }
+            (
+                Geometry::Nothing,
+                Light::Directional(_) | Light::Environment(_) | Light::Sky(_) | Light::Sun(_),
+            ) => Sheet::Plane(-3.0 * first.w, Frame::from_z(first.w)),
             _ => continue,
         };
         // A ray from well before the sheet along its normal meets it where it meets the light.

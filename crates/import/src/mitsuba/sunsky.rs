@@ -53,9 +53,9 @@ pub(super) fn sun_sky(report: &mut Report, plugin: &Plugin, place: &Matrix) -> O
     Some(SunSky {
         sun_direction: narrow(direction),
         turbidity: turbidity as f32,
-        sun_scale: sun.max(0.0) as f32,
+        sun_scale: sun.max(0.0) as f32 / SunSky::OVER_MITSUBA,
         sun_angle: (aperture / 2.0) as f32,
-        sky_scale: sky.max(0.0) as f32,
+        sky_scale: sky.max(0.0) as f32 / SunSky::OVER_MITSUBA,
         transform: place.steps(),
         ..SunSky::default()
     })

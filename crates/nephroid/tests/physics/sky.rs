@@ -4,7 +4,8 @@ use std::path::Path;
 
 use film::encode_exr_rgb;
 use nephroid::SceneDesc;
-use nephroid::desc::{IntegratorKind, Light, LightKind, Material, Object, SkyMapping, TransformStep};
+use nephroid::desc::{IntegratorKind, Light, LightKind, Material, Object, SkyMapping, SunSky, TransformStep};
+use transport::PhotonPaths;
 
 use crate::support::*;
 
@@ -75,4 +76,66 @@ fn a_sky_with_a_bright_patch_agrees_with_path() {
         let found = brightness(&desc, integrator, 12, 32);
         assert_same_within(integrator.name(), &found, &path, 0.01, 1.05);
     }
+}
+
+/// Sun and sky on a glass ball, by every integrator. The sun is wide, so that paths find its caustic.
+#[test]
+fn sun_and_sky_agree_with_path() {
+    let sky = SunSky { sun_direction: [0.6, 1.0, 0.3], sun_angle: 6.0, ..SunSky::default() };
+    let ball = |x: f32, material: Material| Object::new(sphere([x, -0.55, 0.0], 0.4), material);
+    let objects = vec![
+        Object::new(ground(-1.0, 2.0), grey(0.5)),
+        ball(-0.6, Material::dielectric(1.5)),
+        ball(0.6, Material::conductor("gold", 0.4)),
+    ];
+    let mut desc = scene_of(look([0.0, 1.6, 2.2], [0.0, -0.9, 0.0], 40.0), 16, objects);
+    desc.photon_map.photons = 40_000;
+    desc.photon_map.caustic_photons = 40_000;
+    desc.sppm.photons = Some(16_000);
+    desc.sppm.radius = Some(0.03);
+    desc.sppm.alpha = 1.0;
+    desc.vcm.light_paths = Some(512);
+    desc.vcm.radius = Some(0.02);
+    desc.vcm.alpha = 1.0;
+    desc.lights.push(Light::from(LightKind::SunSky(sky)).into());
+    let path = brightness(&desc, PATH, 8, 120);
+    for integrator in [PHOTON_MAP, IntegratorKind::Sppm, IntegratorKind::Vcm, IntegratorKind::Auto] {
+        let found = brightness(&desc, integrator, 8, 24);
+        assert_same_within(integrator.name(), &found, &path, 0.012, 1.08);
+    }
+}
+
+/// The ball's caustic of the real sun holds the flux that the ball lets through, whichever way photons are drawn.
+#[test]
+fn the_sun_shines_through_a_ball() {
+    let sky = SunSky { sun_direction: [0.0, 1.0, 0.0], sky_scale: 0.0, ..SunSky::default() };
+    let objects = vec![
+        Object::new(ground(-1.0, 2.0), grey(0.5)),
+        Object::new(sphere([0.0, -0.2, 0.0], 0.4), Material::dielectric(1.5)),
+    ];
+    let mut desc = scene_of(look([0.0, 3.0, 0.1], [0.0, -1.0, 0.0], 40.0), 16, objects);
+    desc.lights.push(Light::from(LightKind::SunSky(sky)).into());
+    let irradiance = scene::light::sun_irradiance(std::f32::consts::FRAC_PI_2, 3.0);
+    let mean = f64::from(irradiance.iter().sum::<f32>()) / 3.0;
+    // Straight through: ∫ (1 − F(θ))² 2 sin θ cos θ dθ over what lands within a circle, by quadrature.
+    let n = 4000;
+    let through: f64 = (0..n)
+        .map(|i| {
+            let s2 = (f64::from(i) + 0.5) / f64::from(n);
+            let (c, ct) = ((1.0 - s2).sqrt(), (1.0 - s2 / 2.25).sqrt());
+            let (rs, rp) = ((c - 1.5 * ct) / (c + 1.5 * ct), (1.5 * c - ct) / (1.5 * c + ct));
+            let (i, t) = (c.acos(), ct.acos());
+            let (out, turn) = (i - 2.0 * t, 2.0 * (i - t));
+            // Where it leaves the ball, 0.8 above the floor at the middle, and where it lands.
+            let land = -0.4 * out.sin() - (0.8 - 0.4 * out.cos()) * turn.tan();
+            let lands = turn.cos() > 0.0 && land.abs() < 1.9;
+            if lands { (1.0 - 0.5 * (rs * rs + rp * rp)).powi(2) / f64::from(n) } else { 0.0 }
+        })
+        .sum();
+    let expected = mean * std::f64::consts::PI * 0.16 * through;
+    let scene = compiled(&desc);
+    let found = flux(&scene, PhotonPaths::Caustic, 20_000, 12, 3, |p| {
+        p.depth == 2 && p.position.x.hypot(p.position.z) < 1.9
+    });
+    assert_mean("caustic", &found, expected, 0.004);
 }

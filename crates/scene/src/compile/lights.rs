@@ -134,7 +134,7 @@ pub(super) fn sky(
 }
 
 /// The part of a transform that turns (and mirrors): what it makes of the axes, made a right-angled frame of unit length.
-fn turn(t: &Transform) -> Option<Transform> {
+pub(super) fn turn(t: &Transform) -> Option<Transform> {
     let y = t.vector(Vec3::Y).try_normalize()?;
     let z = t.vector(Vec3::Z);
     let z = (z - y * y.dot(z)).try_normalize()?;
@@ -150,6 +150,7 @@ pub(super) fn kind_name(light: &Light) -> &'static str {
         Light::Spot(_) => "spot light",
         Light::Directional(_) => "directional light",
         Light::Environment(_) | Light::Sky(_) => "environment",
+        Light::Sun(_) => "sun",
         Light::Sphere(_) | Light::Disk(_) | Light::Triangles(_) => "lamp",
     }
 }

@@ -3,6 +3,7 @@
 mod lights;
 mod materials;
 mod shapes;
+mod sun_sky;
 mod textures;
 
 use std::collections::BTreeMap;
@@ -12,7 +13,7 @@ use accel::{Bvh, Geometry};
 use math::{Bounds3, Transform, Vec2, Vec3};
 use scenefile::desc::{
     Camera as CameraDesc, CameraKind, Emission, FovAxis, LightKind, MaterialRef, Object as ObjectDesc,
-    SceneDesc,
+    SceneDesc, SunSky,
 };
 use scenefile::{Diagnostic, Sourced, Span};
 
@@ -309,6 +310,9 @@ impl<'d> Compiler<'d> {
     }
 
     fn add_light(&mut self, light: &Sourced<scenefile::desc::Light>) {
+        if let LightKind::SunSky(desc) = &light.kind {
+            return self.add_sun_sky(light, desc);
+        }
         let built = match &light.kind {
             LightKind::Sky { source, mapping, scale, transform } => {
                 lights::sky(self.desc, source, *mapping, *scale, transform).map(|sky| (sky, None)).map_err(
@@ -331,6 +335,27 @@ impl<'d> Compiler<'d> {
                 self.push_light(compiled, name, group, point);
             }
             Err(diagnostic) => self.diagnostics.push(diagnostic),
+        }
+    }
+
+    fn add_sun_sky(&mut self, light: &Sourced<scenefile::desc::Light>, desc: &SunSky) {
+        let built = match sun_sky::build(desc) {
+            Ok(built) => built,
+            Err(reason) => {
+                let message = format!("this sun and sky cannot be: {reason}");
+                self.diagnostics.push(Diagnostic::error("bad-light", message).at(light.span));
+                return;
+            }
+        };
+        if built.is_empty() && (desc.sun_scale > 0.0 || desc.sky_scale > 0.0) {
+            let message = "the sun is below the horizon: neither it nor the sky gives light";
+            self.diagnostics.push(Diagnostic::warning("no-light", message).at(light.span));
+        }
+        let group = light.light_group.clone().or_else(|| light.name.clone());
+        for part in built {
+            let what = if matches!(part, Light::Sun(_)) { "sun" } else { "sky" };
+            let name = light.name.as_ref().map_or_else(|| what.to_owned(), |name| format!("{name} ({what})"));
+            self.push_light(part, name, group.as_deref(), None);
         }
     }
 
@@ -382,7 +407,9 @@ impl<'d> Compiler<'d> {
         let targets = Targets::new(self.targets);
         let environments = (0..self.lights.len() as u32)
             .map(LightId)
-            .filter(|id| matches!(self.lights[id.0 as usize], Light::Environment(_) | Light::Sky(_)))
+            .filter(|id| {
+                matches!(self.lights[id.0 as usize], Light::Environment(_) | Light::Sky(_) | Light::Sun(_))
+            })
             .collect();
         let material_names = self.library.names();
         let (materials, textures) = self.library.finish();

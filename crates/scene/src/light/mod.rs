@@ -18,6 +18,8 @@ mod point;
 mod sky;
 mod sphere;
 mod spot;
+mod sun;
+mod sun_data;
 mod triangles;
 
 use color::Lanes;
@@ -35,6 +37,7 @@ pub use point::PointLight;
 pub use sky::SkyLight;
 pub use sphere::SphereLight;
 pub use spot::SpotLight;
+pub use sun::{SunLight, sun_irradiance};
 pub use triangles::TriangleLight;
 
 /// A light.
@@ -50,6 +53,8 @@ pub enum Light {
     Environment(EnvironmentLight),
     /// A picture of the sky at infinity.
     Sky(Box<SkyLight>),
+    /// A disc at infinity.
+    Sun(SunLight),
     /// A sphere.
     Sphere(SphereLight),
     /// A flat disc.
@@ -138,6 +143,7 @@ impl Light {
             Self::Directional(l) => l.sample_li(p),
             Self::Environment(l) => l.sample_li(p, u),
             Self::Sky(l) => l.sample_li(p, u),
+            Self::Sun(l) => l.sample_li(p, u),
             Self::Sphere(l) => l.sample_li(p, u_pick, u),
             Self::Disk(l) => l.sample_li(p, u_pick, u),
             Self::Triangles(l) => l.sample_li(p, u_pick, u),
@@ -151,6 +157,7 @@ impl Light {
         match (self, hit) {
             (Self::Environment(l), None) => l.pdf_li_w(),
             (Self::Sky(l), None) => l.pdf_w(wi),
+            (Self::Sun(l), None) => l.pdf_w(wi),
             (Self::Sphere(l), Some(hit)) => l.pdf_li_w(p, wi, hit),
             (Self::Disk(l), Some(hit)) => l.pdf_li_w(p, wi, hit),
             (Self::Triangles(l), Some(hit)) => l.pdf_li_w(p, wi, hit),
@@ -166,9 +173,12 @@ impl Light {
             Self::Sphere(l) => l.surface().emitted(ng, w),
             Self::Disk(l) => l.surface().emitted(ng, w),
             Self::Triangles(l) => l.surface().emitted(ng, w),
-            Self::Point(_) | Self::Spot(_) | Self::Directional(_) | Self::Environment(_) | Self::Sky(_) => {
-                Lanes::ZERO
-            }
+            Self::Point(_)
+            | Self::Spot(_)
+            | Self::Directional(_)
+            | Self::Environment(_)
+            | Self::Sky(_)
+            | Self::Sun(_) => Lanes::ZERO,
         }
     }
 
@@ -177,6 +187,7 @@ impl Light {
         match self {
             Self::Environment(l) => l.radiance(),
             Self::Sky(l) => l.radiance(w),
+            Self::Sun(l) => l.radiance(w),
             _ => Lanes::ZERO,
         }
     }
@@ -189,6 +200,7 @@ impl Light {
             Self::Directional(l) => l.sample_le(u_pos),
             Self::Environment(l) => l.sample_le(u_pos, u_dir),
             Self::Sky(l) => l.sample_le(u_pos, u_dir),
+            Self::Sun(l) => l.sample_le(u_pos, u_dir),
             _ => {
                 let origin = self.origin(u_pick, u_pos)?;
                 let emission = self.emission(origin.ng)?;
@@ -206,6 +218,7 @@ impl Light {
             Self::Directional(l) => (l.pdf_le_a(p), 1.0),
             Self::Environment(l) => (l.pdf_le_a(p, w), l.pdf_li_w()),
             Self::Sky(l) => (l.pdf_le_a(p, w), l.pdf_w(-w)),
+            Self::Sun(l) => (l.pdf_le_a(p, w), l.pdf_w(-w)),
             _ => (self.origin_pdf_a(start), self.emission(ng).map_or(0.0, |e| e.pdf_w(w))),
         }
     }
@@ -225,6 +238,7 @@ impl Light {
             Self::Directional(l) => l.sample_le_toward(targets, u_pick, u_pos),
             Self::Environment(l) => l.sample_le_toward(targets, u_pick, u_pos, u_dir),
             Self::Sky(l) => l.sample_le_toward(targets, u_pick, u_pos, u_dir),
+            Self::Sun(l) => l.sample_le_toward(targets, u_pick, u_pos, u_dir),
             _ => {
                 let origin = self.origin(u_pick, u_pos)?;
                 let emission = self.emission(origin.ng)?;
@@ -241,6 +255,7 @@ impl Light {
             Self::Directional(l) => (targets.shadow_pdf_a(p, l.direction(), None), 1.0),
             Self::Environment(l) => (targets.shadow_pdf_a(p, w, None), l.pdf_li_w()),
             Self::Sky(l) => (targets.shadow_pdf_a(p, w, None), l.pdf_w(-w)),
+            Self::Sun(l) => (targets.shadow_pdf_a(p, w, None), l.pdf_w(-w)),
             _ => {
                 let pdf_w = self.emission(ng).map_or(0.0, |e| aim::pdf_w(targets, p, &e, w));
                 (self.origin_pdf_a(start), pdf_w)
@@ -257,6 +272,7 @@ impl Light {
             Self::Directional(l) => l.power(),
             Self::Environment(l) => l.power(),
             Self::Sky(l) => l.power(),
+            Self::Sun(l) => l.power(),
             Self::Sphere(l) => l.surface().power(l.area()) * self.mean_factor(),
             Self::Disk(l) => l.surface().power(l.area()) * self.mean_factor(),
             Self::Triangles(l) => l.surface().power(l.area()) * self.mean_factor(),
@@ -327,9 +343,12 @@ impl Light {
             // A flat light sees the same height of a target from all its points.
             Self::Disk(l) => any(Emission::Lambert(l.surface(), l.normal()), l.center()),
             Self::Triangles(l) => l.faces().any(|(x, ng)| any(Emission::Lambert(l.surface(), ng), x)),
-            Self::Point(_) | Self::Directional(_) | Self::Environment(_) | Self::Sky(_) | Self::Sphere(_) => {
-                !targets.is_empty()
-            }
+            Self::Point(_)
+            | Self::Directional(_)
+            | Self::Environment(_)
+            | Self::Sky(_)
+            | Self::Sun(_)
+            | Self::Sphere(_) => !targets.is_empty(),
         }
     }
 
@@ -340,7 +359,7 @@ impl Light {
 
     /// Whether it lies at infinity.
     pub fn is_infinite(&self) -> bool {
-        matches!(self, Self::Directional(_) | Self::Environment(_) | Self::Sky(_))
+        matches!(self, Self::Directional(_) | Self::Environment(_) | Self::Sky(_) | Self::Sun(_))
     }
 
     /// Bounds of its points; empty for lights at infinity.
@@ -348,7 +367,7 @@ impl Light {
         match self {
             Self::Point(l) => Bounds3::of_points([l.position()]),
             Self::Spot(l) => Bounds3::of_points([l.position()]),
-            Self::Directional(_) | Self::Environment(_) | Self::Sky(_) => Bounds3::EMPTY,
+            Self::Directional(_) | Self::Environment(_) | Self::Sky(_) | Self::Sun(_) => Bounds3::EMPTY,
             Self::Sphere(l) => l.bounds(),
             Self::Disk(l) => l.bounds(),
             Self::Triangles(l) => l.bounds(),
@@ -362,6 +381,7 @@ impl Light {
             Self::Directional(l) => l.preprocess(scene_bounds),
             Self::Environment(l) => l.preprocess(scene_bounds),
             Self::Sky(l) => l.preprocess(scene_bounds),
+            Self::Sun(l) => l.preprocess(scene_bounds),
             _ => {}
         }
     }
@@ -371,7 +391,7 @@ impl Light {
         match self {
             Self::Point(l) => Some(Origin::at_point(l.position())),
             Self::Spot(l) => Some(Origin::at_point(l.position())),
-            Self::Directional(_) | Self::Environment(_) | Self::Sky(_) => None,
+            Self::Directional(_) | Self::Environment(_) | Self::Sky(_) | Self::Sun(_) => None,
             Self::Sphere(l) => Some(l.origin(u_pick, u_pos)),
             Self::Disk(l) => Some(l.origin(u_pick, u_pos)),
             Self::Triangles(l) => Some(l.origin(u_pick, u_pos)),
@@ -393,7 +413,7 @@ impl Light {
         match self {
             Self::Point(l) => Some(Emission::Uniform(l.intensity())),
             Self::Spot(l) => Some(Emission::Spot(l)),
-            Self::Directional(_) | Self::Environment(_) | Self::Sky(_) => None,
+            Self::Directional(_) | Self::Environment(_) | Self::Sky(_) | Self::Sun(_) => None,
             Self::Sphere(l) => Some(Emission::Lambert(l.surface(), ng)),
             Self::Disk(l) => Some(Emission::Lambert(l.surface(), ng)),
             Self::Triangles(l) => Some(Emission::Lambert(l.surface(), ng)),

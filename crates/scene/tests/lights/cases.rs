@@ -7,7 +7,7 @@ use color::Lanes;
 use math::{Affine3A, Bounds3, DVec3, Transform, Vec3};
 use nephroid_scene::light::{
     DirectionalLight, DiskLight, EnvironmentLight, LeSample, Light, LightHit, PointLight, Sides, SkyLight,
-    SphereLight, SpotLight, TriangleLight,
+    SphereLight, SpotLight, SunLight, TriangleLight,
 };
 use nephroid_scene::target::{Target, Targets};
 use sampling::{Domain, Sampler};
@@ -168,6 +168,7 @@ pub fn cases() -> Vec<Case> {
         nothing("environment", Light::Environment(EnvironmentLight::new(lanes(0.7)).unwrap())),
         nothing("sky", Light::Sky(Box::new(sky()))),
         nothing("square sky", Light::Sky(Box::new(sky_of(SkyMapping::EqualArea, [5, 5])))),
+        nothing("sun", Light::Sun(SunLight::new(Vec3::new(0.3, 1.0, -0.2), 0.4, lanes(2.0)).unwrap())),
         sphere(Vec3::new(0.0, 1.4, 0.0), 0.4, Sides::Front),
         disk(Sides::Front),
         disk(Sides::Both),

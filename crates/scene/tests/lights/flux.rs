@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use math::{Bounds3, Vec3};
 use nephroid_scene::light::{
     DirectionalLight, DiskLight, EnvironmentLight, LeSample, Light, LightHit, LightPicker, PointLight, Sides,
-    SphereLight, SpotLight, TriangleLight,
+    SphereLight, SpotLight, SunLight, TriangleLight,
 };
 use nephroid_scene::target::{MAX_TARGETS, Target, Targets};
 use sampling::{Domain, Sampler};
@@ -162,6 +162,17 @@ fn irradiance_closed_forms() {
     // Sun and sky.
     let sun = DirectionalLight::new(Vec3::new(0.0, -3.0, 4.0), lanes(2.0)).map(Light::Directional).unwrap();
     assert_close(irradiance(&sun, p, up), 1.2, 1e-6);
+    // The disc of the sun, of any size.
+    for angle in [0.001f32, 0.00465, 0.1, 1.0] {
+        let sun = SunLight::new(Vec3::new(0.0, 3.0, -4.0), angle, lanes(2.0)).map(Light::Sun).unwrap();
+        assert_close(irradiance(&sun, p, Vec3::new(0.0, 0.6, -0.8)), 2.0, 1e-3);
+        if angle < 0.6 {
+            assert_close(irradiance(&sun, p, up), 1.2, 1e-3);
+        }
+        let seen =
+            |off: f32| sun.escaped(Vec3::new(0.0, (0.6f32.asin() + off).sin(), -(0.6f32.asin() + off).cos()));
+        assert!(seen(0.999 * angle) == seen(0.0) && seen(1.001 * angle).is_zero());
+    }
     let sky = EnvironmentLight::new(lanes(2.0)).map(Light::Environment).unwrap();
     assert_close(irradiance(&sky, p, up), 2.0 * PI, 1e-3);
     // Disc on its axis: πL r²/(r² + h²).
@@ -282,6 +293,8 @@ fn lights_that_make_no_sense_are_refused() {
     assert!(SpotLight::new(o, o, l, 0.1, 0.2).is_none() && SpotLight::new(o, Vec3::X, l, 0.3, 0.2).is_none());
     assert!(SpotLight::new(o, Vec3::X, l, 0.0, 0.0).is_none());
     assert!(DirectionalLight::new(o, l).is_none() && EnvironmentLight::new(lanes(f32::NAN)).is_none());
+    assert!(SunLight::new(o, 0.1, l).is_none() && SunLight::new(Vec3::X, 0.0, l).is_none());
+    assert!(SunLight::new(Vec3::X, 2.0, l).is_none() && SunLight::new(Vec3::X, f32::NAN, l).is_none());
     assert!(SphereLight::new(o, 0.0, l, Sides::Front).is_none());
     assert!(DiskLight::new(o, Vec3::X, -1.0, l, Sides::Front).is_none());
     assert!(DiskLight::new(o, o, 1.0, l, Sides::Front).is_none());

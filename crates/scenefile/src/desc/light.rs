@@ -154,14 +154,14 @@ pub enum SkyMapping {
     EqualArea,
 }
 
-/// Sun and clear sky.
+/// Sun and clear sky: Hošek & Wilkie 2012 and 2013. Black below the horizon; none where the sun is below it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SunSky {
     /// Toward the sun, of any length but zero; +y is up before `transform`.
     pub sun_direction: Triple,
-    /// Haze: 1.7 (clear) to 10.
+    /// Haze: 1 (clear) to 10.
     pub turbidity: f32,
-    /// Albedo of the ground, 0..=1.
+    /// Albedo of the ground, 0..=1: its share in the sky's light. The ground itself is not there.
     pub ground_albedo: Triple,
     /// Factor on the sun; 0: none.
     pub sun_scale: f32,
@@ -171,6 +171,12 @@ pub struct SunSky {
     pub sky_scale: f32,
     /// Turns both.
     pub transform: TransformSteps,
+}
+
+impl SunSky {
+    /// Radiance in W/(sr·m²) where Mitsuba 3's `sunsky` has 1: its tables are the published model's over ∫ȳ dλ = 106.75 nm, ours count
+    /// [`WHITE_EFFICACY`] instead of 683 lm in a watt.
+    pub const OVER_MITSUBA: f32 = 683.0 * 106.750_26 / WHITE_EFFICACY;
 }
 
 impl Default for SunSky {

@@ -183,7 +183,7 @@ pub const LIGHTS: Section = Section {
                         Color(UNIT),
                         "",
                         Preset::Number(0.3),
-                        "Of the ground below the horizon, which lights the sky and is seen from above.",
+                        "Of a ground whose light the sky scatters; the ground itself is not there.",
                     ),
                     key(
                         "sun_scale",
