@@ -78,7 +78,7 @@ impl Law for CoatLoss {
     }
 
     fn value(self, alpha: [f32; 2], w: Vec3) -> f32 {
-        let (ggx, n) = (Ggx::xy(alpha), count(alpha));
+        let (ggx, n) = (Ggx::xy(alpha), count(alpha) / 2);
         let wo = inside(w, self.eta);
         let enters = self.enters(w.z);
         let of = |u| {

@@ -12,7 +12,7 @@ const ROUND: usize = 48;
 /// Nodes of the polar angle for roughness of two directions.
 const OVAL: usize = 32;
 /// Nodes of the azimuth, from the smooth axis to the rough one.
-const AZIMUTHS: usize = 11;
+const AZIMUTHS: usize = 13;
 /// Nodes in ln α, evenly spaced over [[`ALPHA_MIN`], 1].
 const ALPHAS: usize = 64;
 /// Steps between nodes in the quadrature of means.
@@ -87,12 +87,12 @@ pub(crate) fn two((i, f): (usize, f32)) -> Places {
     [(i, 1.0 - f), (i + 1, f), (0, 0.0), (0, 0.0)]
 }
 
-/// Grows with μ/α, on which masking depends for small α: so tables are as smooth at α = 10⁻⁴ as at 1. The mean of τ = μ(1 + α)/(μ + α)
-/// and 1 − √(1 − τ), which resolves what falls like (α/μ)².
+/// Grows with μ/α, on which masking depends for small α: so tables are as smooth at α = 10⁻⁴ as at 1. With τ = μ(1 + α)/(μ + α) the
+/// mean of √τ, which resolves grazing angles, and of 1 − √(1 − τ), which resolves what falls like (α/μ)².
 #[inline]
 pub(crate) fn graded(mu: f32, alpha: f32) -> f32 {
     let left = alpha * (1.0 - mu).max(0.0) / (mu + alpha);
-    1.0 - 0.5 * (left + left.sqrt())
+    0.5 * ((1.0 - left).max(0.0).sqrt() + 1.0 - left.sqrt())
 }
 
 /// Quadrature points of a value for this roughness.

@@ -81,12 +81,11 @@ fn white_glass_of_every_roughness() {
         // Losses are those of the bare interface.
         returns_all(white_glass(1.5, [alpha; 2], Film::new(400.0, 1.3)), &COSINES, 0.025);
     }
-    for alpha in [0.05, 0.15, 0.3, 1.0] {
-        for eta in [1.1, 1.5, 2.4] {
-            for ratio in [0.05, 0.3] {
-                returns_all(white_glass(eta, [alpha, alpha * ratio], Film::NONE), &COSINES, 0.013);
-                returns_all(white_glass(eta, [alpha, alpha * ratio], Film::NONE), &COSINES.map(|c| -c), 0.02);
-            }
+    for (alpha, ratio) in [(0.05, 0.3), (0.3, 0.3), (1.0, 0.05)] {
+        for eta in [1.1, 1.5] {
+            let kind = white_glass(eta, [alpha, alpha * ratio], Film::NONE);
+            returns_all(kind, &COSINES, 0.013);
+            returns_all(kind, &COSINES.map(|c| -c), 0.02);
         }
     }
 }
@@ -121,7 +120,8 @@ fn white_coated_metals() {
     for eta in [1.2, 1.5, 2.0] {
         for alpha in ALPHAS {
             for coat_alpha in [0.0, 0.1, 0.5] {
-                for alpha in [[alpha; 2], [alpha, 0.2 * alpha]] {
+                let oval = (alpha == 0.6 && eta == 1.5).then_some([alpha, 0.2 * alpha]);
+                for alpha in [Some([alpha; 2]), oval].into_iter().flatten() {
                     let (n, k, depth) = (Lanes::ZERO, Lanes::splat(5.0), 0.0);
                     let facets = Facets::Conserving;
                     let kind = BsdfKind::CoatedConductor { n, k, alpha, eta, coat_alpha, depth, facets };
