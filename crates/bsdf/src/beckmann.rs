@@ -3,8 +3,7 @@ use math::{PI, Vec3};
 use crate::ggx::ALPHA_MIN;
 
 /// The Beckmann distribution of normals, of roughness αx along x and αy along y, with separable Smith masking in
-/// Walter's rational fit (Walter et al. 2007, §5.2; its error is below 0.35 %). Normals are drawn from D·cosθ, not
-/// from the visible ones: near grazing incidence samples are noisy.
+/// Walter's rational fit (Walter et al. 2007, §5.2; its error is below 0.35 %).
 #[derive(Clone, Copy)]
 pub(crate) struct Beckmann {
     ax: f32,
@@ -41,19 +40,5 @@ impl Beckmann {
     #[inline]
     pub fn visibility(&self, wo: Vec3, wi: Vec3) -> f32 {
         self.g1(wo) * self.g1(wi) / (4.0 * wo.z * wi.z.abs()).max(1e-30)
-    }
-
-    /// A normal of density D·cosθ.
-    #[inline]
-    pub fn sample_normal(&self, u: [f32; 2]) -> Vec3 {
-        let r = (-(-u[0]).ln_1p()).sqrt();
-        let (s, c) = (2.0 * PI * u[1]).sin_cos();
-        Vec3::new(self.ax * r * c, self.ay * r * s, 1.0).normalize()
-    }
-
-    /// Density of [`Self::sample_normal`].
-    #[inline]
-    pub fn pdf_normal(&self, h: Vec3) -> f32 {
-        self.d(h) * h.z
     }
 }

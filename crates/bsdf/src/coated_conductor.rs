@@ -99,7 +99,7 @@ impl CoatedConductor {
         let escapes = 1.0 - fresnel_dielectric_mean(1.0 / self.eta);
         let (first, kept) = match self.facets {
             Facets::Conserving => (1.0, 1.0),
-            Facets::SingleBounce | Facets::Beckmann => {
+            Facets::SingleBounce | Facets::Separable | Facets::Beckmann => {
                 let m = coat_loss_mean(self.alpha, self.eta, 0.0) / (1.0 - fresnel_dielectric_mean(self.eta));
                 let first = facet_loss(INNER, self.alpha);
                 let total = (m - first).max(0.0) / m.max(1e-6);

@@ -10,8 +10,10 @@ pub enum Facets {
     /// GGX, the energy of light that bounces more than once among the facets restored (Kulla & Conty 2017).
     #[default]
     Conserving,
-    /// GGX, one bounce alone: darkens with roughness. What pbrt-v4 renders, and Mitsuba 3 with `ggx`.
+    /// GGX, one bounce alone: darkens with roughness. What pbrt-v4 renders.
     SingleBounce,
+    /// GGX, one bounce alone, masking separable: Mitsuba's `ggx`.
+    Separable,
     /// Beckmann, one bounce alone, masking separable: Mitsuba's `beckmann`.
     Beckmann,
 }
@@ -19,9 +21,14 @@ pub enum Facets {
 /// Facets of a given roughness. Local directions; those named `wo` have z > 0.
 #[derive(Clone, Copy)]
 pub(crate) enum Micro {
-    Conserving { ggx: Ggx, alpha: [f32; 2] },
+    Conserving {
+        ggx: Ggx,
+        alpha: [f32; 2],
+    },
     SingleBounce(Ggx),
-    Beckmann(Beckmann),
+    Separable(Ggx),
+    /// Normals are drawn from the visible ones of GGX: its tail is longer, the ratio of the two densities is at most 4/e.
+    Beckmann(Beckmann, Ggx),
 }
 
 impl Micro {
@@ -30,7 +37,8 @@ impl Micro {
         match facets {
             Facets::Conserving => Self::Conserving { ggx: Ggx::xy(alpha), alpha },
             Facets::SingleBounce => Self::SingleBounce(Ggx::xy(alpha)),
-            Facets::Beckmann => Self::Beckmann(Beckmann::xy(alpha)),
+            Facets::Separable => Self::Separable(Ggx::xy(alpha)),
+            Facets::Beckmann => Self::Beckmann(Beckmann::xy(alpha), Ggx::xy(alpha)),
         }
     }
 
@@ -38,8 +46,8 @@ impl Micro {
     #[inline]
     pub fn d(&self, h: Vec3) -> f32 {
         match self {
-            Self::Conserving { ggx, .. } | Self::SingleBounce(ggx) => ggx.d(h),
-            Self::Beckmann(b) => b.d(h),
+            Self::Conserving { ggx, .. } | Self::SingleBounce(ggx) | Self::Separable(ggx) => ggx.d(h),
+            Self::Beckmann(b, _) => b.d(h),
         }
     }
 
@@ -48,48 +56,44 @@ impl Micro {
     pub fn visibility(&self, wo: Vec3, wi: Vec3) -> f32 {
         match self {
             Self::Conserving { ggx, .. } | Self::SingleBounce(ggx) => ggx.visibility(wo, wi),
-            Self::Beckmann(b) => b.visibility(wo, wi),
+            Self::Separable(ggx) => ggx.visibility_separable(wo, wi),
+            Self::Beckmann(b, _) => b.visibility(wo, wi),
+        }
+    }
+
+    /// The distribution from which facets are drawn.
+    #[inline]
+    fn drawn(&self) -> &Ggx {
+        match self {
+            Self::Conserving { ggx, .. }
+            | Self::SingleBounce(ggx)
+            | Self::Separable(ggx)
+            | Self::Beckmann(_, ggx) => ggx,
         }
     }
 
     /// `wi` mirrored in a facet. It may lie below the horizon.
     #[inline]
     pub fn sample_reflected(&self, wo: Vec3, u: [f32; 2]) -> Vec3 {
-        match self {
-            Self::Conserving { ggx, .. } | Self::SingleBounce(ggx) => ggx.sample(wo, u),
-            Self::Beckmann(b) => {
-                let h = b.sample_normal(u);
-                let cos = wo.dot(h);
-                if cos > 0.0 { h * (2.0 * cos) - wo } else { -wo }
-            }
-        }
+        self.drawn().sample(wo, u)
     }
 
     /// Density of [`Self::sample_reflected`] above the horizon, per steradian of `wi`, of which `h` is the half vector.
     #[inline]
     pub fn pdf_reflected(&self, wo: Vec3, h: Vec3) -> f32 {
-        match self {
-            Self::Conserving { ggx, .. } | Self::SingleBounce(ggx) => ggx.pdf_w(wo, h),
-            Self::Beckmann(b) => b.pdf_normal(h) / (4.0 * wo.dot(h)).max(1e-30),
-        }
+        self.drawn().pdf_w(wo, h)
     }
 
     /// A normal of a facet, for refraction. It may face away from `wo`.
     #[inline]
     pub fn sample_normal(&self, wo: Vec3, u: [f32; 2]) -> Vec3 {
-        match self {
-            Self::Conserving { ggx, .. } | Self::SingleBounce(ggx) => ggx.sample_normal(wo, u),
-            Self::Beckmann(b) => b.sample_normal(u),
-        }
+        self.drawn().sample_normal(wo, u)
     }
 
     /// Density of [`Self::sample_normal`] per steradian of the normal.
     #[inline]
     pub fn pdf_normal(&self, wo: Vec3, h: Vec3) -> f32 {
-        match self {
-            Self::Conserving { ggx, .. } | Self::SingleBounce(ggx) => ggx.pdf_normal(wo, h),
-            Self::Beckmann(b) => b.pdf_normal(h),
-        }
+        self.drawn().pdf_normal(wo, h)
     }
 
     /// D·G₂/(4 cosθo cosθi) of a reflection.
@@ -103,7 +107,7 @@ impl Micro {
     pub fn restored(&self, w: Vec3) -> f32 {
         match self {
             Self::Conserving { alpha, .. } => facet_loss(w, *alpha),
-            Self::SingleBounce(_) | Self::Beckmann(_) => 0.0,
+            Self::SingleBounce(_) | Self::Separable(_) | Self::Beckmann(..) => 0.0,
         }
     }
 
@@ -111,7 +115,7 @@ impl Micro {
     pub fn restored_mean(&self) -> Option<f32> {
         match self {
             Self::Conserving { alpha, .. } => Some(facet_loss_mean(*alpha)),
-            Self::SingleBounce(_) | Self::Beckmann(_) => None,
+            Self::SingleBounce(_) | Self::Separable(_) | Self::Beckmann(..) => None,
         }
     }
 }

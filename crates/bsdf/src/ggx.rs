@@ -45,6 +45,12 @@ impl Ggx {
         0.5 / (wo.z * self.stretch(wi) + wi.z.abs() * self.stretch(wo)).max(1e-30)
     }
 
+    /// G₁(o) G₁(i)/(4 |cosθo| |cosθi|), the two maskings independent (Walter et al. 2007, eq. 23); `wi` on either side.
+    #[inline]
+    pub fn visibility_separable(&self, wo: Vec3, wi: Vec3) -> f32 {
+        1.0 / ((wo.z + self.stretch(wo)) * (wi.z.abs() + self.stretch(wi))).max(1e-30)
+    }
+
     /// The bound k of the visible cap and the length of the stretched `wo` (Eto & Tokuyoshi 2023, eq. 5; with the
     /// smaller α, §4.1).
     #[inline]

@@ -58,7 +58,7 @@ pub(crate) struct Glass {
 pub(crate) fn means(micro: &Micro, eta: f32) -> [f32; 2] {
     match micro {
         Micro::Conserving { alpha, .. } => [eta, 1.0 / eta].map(|eta| glass_loss_mean(*alpha, eta)),
-        Micro::SingleBounce(_) | Micro::Beckmann(_) => [0.0; 2],
+        Micro::SingleBounce(_) | Micro::Separable(_) | Micro::Beckmann(..) => [0.0; 2],
     }
 }
 

@@ -136,7 +136,7 @@ pub enum BsdfKind {
     /// A dielectric coat over a diffuse base with all that it may have; [`BsdfKind::Plastic`] is its plain form. Alike from both
     /// sides. With conserving facets the base takes all that the coat's single bounce does not reflect; with the others what the
     /// coat's facets lose is lost, at each crossing and inner reflection, as in Mitsuba's `roughplastic` and, on the mean, in a random
-    /// walk between the layers (pbrt-v4); for Beckmann's from the tables of GGX.
+    /// walk between the layers (pbrt-v4).
     CoatedDiffuse {
         /// Reflectance of the base (see [`crate::linear_plastic_albedo`], [`crate::absorbing_coat_albedo`]).
         albedo: Lanes,
@@ -163,7 +163,7 @@ pub enum BsdfKind {
         coat_alpha: f32,
         /// Optical depth of the coat along its normal, ≥ 0 (pbrt-v4's `thickness`, where its `albedo` is 0).
         depth: f32,
-        /// Model of the facets of both; the last two are the same here (GGX, and dark with roughness as a random walk through
+        /// Model of the facets of both; all but the first are the same here (GGX, and dark with roughness as a random walk through
         /// single bounces is).
         facets: Facets,
     },

@@ -44,6 +44,7 @@ mod principled;
 mod reflectance;
 mod rough_diffuse;
 mod sheen;
+mod single_bounce;
 mod slab;
 mod table;
 mod thin;

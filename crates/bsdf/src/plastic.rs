@@ -8,9 +8,9 @@ use crate::cosine::cosine_hemisphere;
 use crate::diffuse;
 use crate::facets::{Facets, Micro, half_reflected, is_smooth};
 use crate::fresnel::{fresnel_dielectric, fresnel_dielectric_mean};
-use crate::glass_loss::{glass_loss, glass_loss_mean};
 use crate::lobes::Lobes;
 use crate::mirror;
+use crate::single_bounce::{Part, single_bounce, single_bounce_mean};
 
 /// A dielectric coat over a diffuse base. With E the directional albedo of the coat (F where it is smooth), E_mean
 /// its cosine-weighted mean, and F_in the mean reflectance of the coat seen from the base, light that bounces
@@ -47,23 +47,10 @@ fn loses(facets: Facets, alpha: [f32; 2]) -> bool {
     facets != Facets::Conserving && !is_smooth(alpha)
 }
 
-/// The roughness at which the tables of GGX serve for these facets: Beckmann's have no long tail of steep slopes.
-fn tabulated(facets: Facets, alpha: [f32; 2]) -> [f32; 2] {
-    match facets {
-        Facets::Conserving | Facets::SingleBounce => alpha,
-        Facets::Beckmann => alpha.map(|a| BECKMANN_TO_GGX * a),
-    }
-}
-
-/// Chosen so that the albedo of a coat of either is about the same (`tests/random_walk.rs`).
-const BECKMANN_TO_GGX: f32 = 0.45;
-
-/// Means of single bounces at the coat: what it lets in, and what it reflects of light from within (whose part let out is
-/// the first over η², as étendue is kept).
-fn single_means(eta: f32, alpha: [f32; 2]) -> (f32, f32) {
-    let mean = |eta: f32| glass_loss_mean(alpha, eta);
-    let enters = one_minus_mean(eta, alpha) - mean(eta);
-    (enters, 1.0 - enters / (eta * eta) - mean(1.0 / eta))
+/// Means of single bounces at the coat: what it lets in, and what it reflects of light from within.
+fn single_means(eta: f32, alpha: [f32; 2], facets: Facets) -> (f32, f32) {
+    let mean = |part| single_bounce_mean(part, alpha, eta, facets);
+    (mean(Part::Entering), mean(Part::Inner))
 }
 
 /// The constant factor of f_d. With single bounces a/(π η² (1 − a·R)), R their mean inner reflectance: then f_d is exactly what
@@ -71,9 +58,8 @@ fn single_means(eta: f32, alpha: [f32; 2]) -> (f32, f32) {
 pub(crate) fn base(albedo: Lanes, eta: f32, alpha: [f32; 2], facets: Facets) -> Lanes {
     let eta = clamped(eta);
     let smooth = !loses(facets, alpha);
-    let alpha = tabulated(facets, alpha);
     if !smooth {
-        let (_, inner) = single_means(eta, alpha);
+        let (_, inner) = single_means(eta, alpha, facets);
         return albedo.map(|a| a * FRAC_1_PI / (eta * eta * (1.0 - a * inner)));
     }
     let f_in = fresnel_dielectric_mean(1.0 / eta);
@@ -88,7 +74,7 @@ pub(crate) fn base(albedo: Lanes, eta: f32, alpha: [f32; 2], facets: Facets) -> 
 pub fn linear_plastic_albedo(albedo: Lanes, eta: f32, alpha: [f32; 2], facets: Facets) -> Lanes {
     let eta = clamped(eta);
     let r = if loses(facets, alpha) {
-        single_means(eta, tabulated(facets, alpha)).1
+        single_means(eta, alpha, facets).1
     } else {
         fresnel_dielectric_mean(1.0 / eta)
     };
@@ -126,19 +112,20 @@ impl Plastic {
     fn coat(&self, w: Vec3) -> f32 {
         if is_smooth(self.alpha) {
             fresnel_dielectric(w.z, self.eta)
+        } else if loses(self.facets, self.alpha) {
+            single_bounce(Part::Reflected, w, self.alpha, self.eta, self.facets)
         } else {
-            coat_albedo(w, tabulated(self.facets, self.alpha), self.eta)
+            coat_albedo(w, self.alpha, self.eta)
         }
     }
 
     /// What enters through the coat.
     #[inline]
     fn enters(&self, w: Vec3) -> f32 {
-        let e = 1.0 - self.coat(w);
-        if !loses(self.facets, self.alpha) {
-            return e;
+        if loses(self.facets, self.alpha) {
+            return single_bounce(Part::Entering, w, self.alpha, self.eta, self.facets);
         }
-        (e - glass_loss(w, tabulated(self.facets, self.alpha), self.eta)).max(0.0)
+        1.0 - self.coat(w)
     }
 
     /// Lobe of the coat.
@@ -173,11 +160,10 @@ impl Plastic {
 
     /// Reflectance of the base through the coat, over what enters.
     fn base_albedo(&self) -> Lanes {
-        let alpha = tabulated(self.facets, self.alpha);
         let mean = if loses(self.facets, self.alpha) {
-            single_means(self.eta, alpha).0
+            single_means(self.eta, self.alpha, self.facets).0
         } else {
-            one_minus_mean(self.eta, alpha)
+            one_minus_mean(self.eta, self.alpha)
         };
         self.base * (math::PI * mean)
     }

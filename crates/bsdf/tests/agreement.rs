@@ -1,5 +1,6 @@
-//! Values of f·|cos θi| that another renderer gives: Mitsuba 3.9.1, variant `scalar_rgb`, radiance mode. Its GGX has separable
-//! masking, which is up to two per cent darker; its Beckmann has ours.
+//! Values of f·|cos θi| that another renderer gives: Mitsuba 3.9.1, variant `scalar_rgb`, radiance mode. Of its
+//! `roughplastic` the mean inner reflectance is taken at 64 angles, which makes the base up to two per cent darker than the
+//! integral does.
 
 mod common;
 
@@ -11,15 +12,23 @@ use nephroid_bsdf::{Bsdf, BsdfKind, Facets, Film};
 /// (cosine, azimuth) of wo and of wi, and the value in red, green and blue.
 type Row = ([f32; 2], [f32; 2], [f32; 3]);
 
-fn agrees(kind: BsdfKind, rows: &[Row], bound: f32) {
+/// The first row that differs by more than `bound`, as text.
+fn first_off(kind: BsdfKind, rows: &[Row], bound: f32) -> Option<String> {
     let b = Bsdf::new(kind, Frame { x: Vec3::X, y: Vec3::Y, z: Vec3::Z }, Vec3::Z);
-    for &(o, i, expected) in rows {
+    rows.iter().find_map(|&(o, i, expected)| {
         let [wo, wi] = [o, i].map(|[c, phi]| spherical_direction(c, phi));
         let found = (b.eval(wo, wi, RADIANCE) * b.abs_cos(wi)).to_rgb();
-        for (f, e) in found.iter().zip(expected) {
-            assert!((f - e).abs() < bound * e + 1e-5, "{kind:?} {o:?} {i:?}: {found:?} {expected:?}");
-        }
-    }
+        let near = found.iter().zip(expected).all(|(f, e)| (f - e).abs() < bound * e + 1e-5);
+        (!near).then(|| format!("{kind:?} {o:?} {i:?}: {found:?} {expected:?}"))
+    })
+}
+
+fn within(kind: BsdfKind, rows: &[Row], bound: f32) -> bool {
+    first_off(kind, rows, bound).is_none()
+}
+
+fn agrees(kind: BsdfKind, rows: &[Row], bound: f32) {
+    assert_eq!(first_off(kind, rows, bound), None);
 }
 
 fn glass(facets: Facets) -> BsdfKind {
@@ -58,8 +67,10 @@ fn rough_dielectric() {
         ([-0.8, 0.0], [0.6, 3.3], [7.2108, 7.2108, 7.2108]),
         ([0.5, 1.0], [-0.7, 4.0], [1.89, 1.89, 1.89]),
     ];
-    agrees(glass(Facets::SingleBounce), &ggx, 0.02);
-    agrees(glass(Facets::Beckmann), &beckmann, 2e-3);
+    agrees(glass(Facets::Separable), &ggx, 1e-3);
+    agrees(glass(Facets::Beckmann), &beckmann, 1e-3);
+    // The correlated masking of pbrt differs by more than that.
+    assert!(!within(glass(Facets::SingleBounce), &ggx, 1e-3));
 }
 
 /// `roughconductor`, α = 0.3 and 0.1.
@@ -76,8 +87,9 @@ fn rough_conductor() {
         ([0.5, 0.3], [0.45, 3.3], [1.16629, 0.963, 0.51501]),
         ([0.3, 1.0], [0.4, 4.5], [0.20529, 0.17172, 0.09641]),
     ];
-    agrees(metal(Facets::SingleBounce), &ggx, 0.02);
-    agrees(metal(Facets::Beckmann), &beckmann, 2e-3);
+    agrees(metal(Facets::Separable), &ggx, 1e-3);
+    agrees(metal(Facets::Beckmann), &beckmann, 1e-3);
+    assert!(!within(metal(Facets::SingleBounce), &ggx, 1e-3));
 }
 
 /// `roughplastic` with `nonlinear`, α = 0.3, index 1.5.
@@ -95,6 +107,6 @@ fn rough_plastic() {
         ([0.5, 0.3], [0.45, 3.3], [0.23205, 0.17915, 0.14993]),
         ([0.3, 1.0], [0.4, 4.5], [0.11763, 0.07524, 0.05183]),
     ];
-    agrees(plastic(Facets::SingleBounce), &ggx, 0.03);
-    agrees(plastic(Facets::Beckmann), &beckmann, 0.03);
+    agrees(plastic(Facets::Separable), &ggx, 0.01);
+    agrees(plastic(Facets::Beckmann), &beckmann, 0.02);
 }

@@ -99,7 +99,8 @@ impl Dice {
     }
 
     fn facets(&mut self) -> Facets {
-        [Facets::Conserving, Facets::SingleBounce, Facets::Beckmann][self.below(3) as usize]
+        [Facets::Conserving, Facets::SingleBounce, Facets::Separable, Facets::Beckmann]
+            [self.below(4) as usize]
     }
 
     fn film(&mut self) -> ThinFilm {

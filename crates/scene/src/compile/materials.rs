@@ -437,6 +437,7 @@ fn facets(facets: desc::Facets) -> Facets {
     match facets {
         desc::Facets::Conserving => Facets::Conserving,
         desc::Facets::SingleBounce => Facets::SingleBounce,
+        desc::Facets::Separable => Facets::Separable,
         desc::Facets::Beckmann => Facets::Beckmann,
     }
 }

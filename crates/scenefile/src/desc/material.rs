@@ -98,6 +98,8 @@ pub enum Facets {
     Conserving,
     /// GGX, one bounce alone.
     SingleBounce,
+    /// GGX, one bounce alone, masking of the two directions independent.
+    Separable,
     /// Beckmann, one bounce alone.
     Beckmann,
 }

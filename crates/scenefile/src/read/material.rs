@@ -217,6 +217,7 @@ fn principled(report: &mut Report, r: &Reader<'_>) -> Option<Principled> {
 fn facets(report: &mut Report, r: &Reader<'_>) -> Option<Facets> {
     r.word(report, "facets").map(|word| match word {
         "single-bounce" => Facets::SingleBounce,
+        "separable" => Facets::Separable,
         "beckmann" => Facets::Beckmann,
         _ => Facets::Conserving,
     })

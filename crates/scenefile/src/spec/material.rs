@@ -44,7 +44,11 @@ const FACETS: Key = key(
     "facets",
     Kind::Word(&[
         word("conserving", "GGX, with the energy of light that bounces several times among the facets."),
-        word("single-bounce", "GGX, one bounce alone, which darkens: as pbrt-v4, and Mitsuba with ggx."),
+        word("single-bounce", "GGX, one bounce alone, which darkens: as pbrt-v4."),
+        word(
+            "separable",
+            "GGX, one bounce alone, masking of the two directions independent: as Mitsuba with ggx.",
+        ),
         word("beckmann", "Beckmann, one bounce alone: as Mitsuba with beckmann."),
     ]),
     "",

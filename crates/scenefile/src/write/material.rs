@@ -271,6 +271,7 @@ fn facets(f: &mut Fields, facets: Facets) {
         match facets {
             Facets::Conserving => "conserving",
             Facets::SingleBounce => "single-bounce",
+            Facets::Separable => "separable",
             Facets::Beckmann => "beckmann",
         },
     );
