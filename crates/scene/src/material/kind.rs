@@ -142,6 +142,27 @@ impl MaterialKind {
         !roughness.is_isotropic() && !roughness.is_smooth()
     }
 
+    /// Whether it reflects or refracts by facets, smooth or rough.
+    pub(super) fn mirrors(&self) -> bool {
+        match self {
+            Self::Mirror { .. }
+            | Self::Dielectric(_)
+            | Self::ThinDielectric { .. }
+            | Self::Conductor(_)
+            | Self::Plastic { .. }
+            | Self::CoatedDiffuse(_)
+            | Self::CoatedConductor(_)
+            | Self::Principled(_) => true,
+            Self::Black
+            | Self::Diffuse { .. }
+            | Self::Phong { .. }
+            | Self::RoughDiffuse { .. }
+            | Self::DiffuseTransmission { .. }
+            | Self::Sheen { .. }
+            | Self::Mix { .. } => false,
+        }
+    }
+
     /// Whether light may pass through the surface.
     pub(super) fn is_crossed(&self) -> bool {
         let none = FloatSource::Constant(0.0);

@@ -11,7 +11,7 @@ use math::{Frame, Vec3};
 
 use crate::attributes::Owner;
 use crate::{Medium, SurfaceInteraction};
-use relief::facing;
+use relief::{facing, glossy_normal};
 
 pub use kind::MaterialKind;
 pub use source::{ColorSource, FloatSource, RoughnessSource};
@@ -52,6 +52,8 @@ pub struct Material {
     pub(crate) part_of: Option<MaterialId>,
     /// Whether it tells the direction of growing u from others.
     oriented: bool,
+    /// Whether it reflects or refracts as a mirror or glass does, smooth or rough.
+    mirrors: bool,
     /// The BSDF kind where nothing varies over the surface (and the kind is not a dielectric, whose index depends
     /// on the medium).
     constant: Option<BsdfKind>,
@@ -61,7 +63,7 @@ impl Material {
     /// A material; works out what is constant.
     pub fn new(kind: MaterialKind, normal_map: Option<(u32, f32)>, two_sided: bool) -> Self {
         let two_sided = two_sided || kind.is_crossed();
-        let oriented = kind.is_anisotropic();
+        let (oriented, mirrors) = (kind.is_anisotropic(), kind.mirrors());
         let mut material = Self {
             kind,
             normal_map,
@@ -71,6 +73,7 @@ impl Material {
             opacity: None,
             part_of: None,
             oriented,
+            mirrors,
             constant: None,
         };
         if material.kind.is_uniform() && material.medium(MaterialId(0)).is_none() {
@@ -123,6 +126,7 @@ impl Material {
             None => self.kind.bsdf(Some(&{ *hit }), eta, lookup),
         };
         let ns = match (self.normal_map, self.bump_map) {
+            (None, None) if self.mirrors && hit.ns != hit.ng => glossy_normal(hit.ns, hit.ng, wo, eta),
             (None, None) => facing(hit.ns, hit.ng, wo),
             _ => self.bent_normal(&{ *hit }, wo, lookup),
         };

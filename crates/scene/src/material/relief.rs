@@ -47,6 +47,23 @@ pub(super) fn with_valid_mirror(ns: Vec3, ng: Vec3, wo: Vec3) -> Vec3 {
     (x * sin + g * cos) * side
 }
 
+/// The shading normal of smooth meshes for what reflects and refracts: `wo` is mirrored to its side of the surface, and refracted
+/// to the other, where otherwise coarse meshes of glass have black seams. `eta`: index beyond the back over that beyond the front.
+#[inline(never)]
+pub(super) fn glossy_normal(ns: Vec3, ng: Vec3, wo: Vec3, eta: f32) -> Vec3 {
+    let n = with_valid_mirror(facing(ns, ng, wo), ng, wo);
+    let side = 1.0f32.copysign(wo.dot(ng));
+    let across = if side > 0.0 { eta } else { 1.0 / eta };
+    // Snell's law: the refracted direction is −wo/η + (cosᵢ/η − cosₜ)·n.
+    let cos_i = wo.dot(n * side);
+    let sin2_t = (1.0 - cos_i * cos_i).max(0.0) / (across * across);
+    if sin2_t >= 1.0 {
+        return n;
+    }
+    let refracted = n * side * (cos_i / across - (1.0 - sin2_t).sqrt()) - wo / across;
+    if refracted.dot(ng * side) < 0.0 { n } else { ng }
+}
+
 impl Material {
     /// The shading normal under normal map and bump map, as a ray along `wo` may see it.
     #[inline(never)]
@@ -152,6 +169,30 @@ mod tests {
             assert!((above.abs() - least).abs() < 2e-3, "{i}: {above} {least}");
         }
         assert!(changed > 1000, "{changed}");
+    }
+
+    /// Both ways that light goes at smooth glass lie on the sides where they should, so that none is lost.
+    #[test]
+    fn glass_of_smooth_meshes_swallows_nothing() {
+        let mut lost = 0;
+        for i in 0..20_000 {
+            let mut s = Sampler::new(4, i, Domain::Other, 0);
+            let (ng, wo) = (warp::sphere(s.next_2d()), warp::sphere(s.next_2d()));
+            let ns = (ng + warp::sphere(s.next_2d()) * 0.7).normalize();
+            if wo.dot(ng).abs() < 1e-3 {
+                continue;
+            }
+            let throughput = |ns: Vec3| {
+                let kind = bsdf::BsdfKind::Dielectric { eta: 1.5, tint: color::Lanes::ONE };
+                let glass = bsdf::Bsdf::new(kind, Frame::from_z(ns), ng);
+                let lobes = glass.delta_lobes(wo, bsdf::TransportMode::Importance);
+                lobes.into_iter().flatten().map(|lobe| lobe.weight.mean()).sum::<f32>()
+            };
+            lost += u32::from(throughput(facing(ns, ng, wo)) < 0.999);
+            let whole = throughput(glossy_normal(ns, ng, wo, 1.5));
+            assert!((whole - 1.0).abs() < 1e-4, "{i}: {whole}");
+        }
+        assert!(lost > 500, "{lost}");
     }
 
     #[test]
