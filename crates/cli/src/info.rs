@@ -118,6 +118,7 @@ fn kind(light: &Light) -> &'static str {
         Light::Spot(_) => "spot",
         Light::Directional(_) => "directional",
         Light::Environment(_) | Light::Sky(_) => "environment",
+        Light::Sun(_) => "sun",
         Light::Sphere(_) => "sphere",
         Light::Disk(_) => "disk",
         Light::Triangles(_) => "triangles",
