@@ -51,6 +51,14 @@ impl Bvh {
         build::build(geometry)
     }
 
+    /// About the bytes that a triangle takes in a large tree.
+    pub const BYTES_PER_TRIANGLE: u64 = 60;
+
+    /// A tree that no ray meets, with its bounds: for looking at a scene that is not traced. Much cheaper than [`Bvh::build`].
+    pub fn outline(geometry: &Geometry) -> Self {
+        build::outline(geometry)
+    }
+
     /// The first hit along the ray.
     #[inline]
     pub fn closest(&self, ray: &Ray) -> Option<Hit> {

@@ -3,13 +3,13 @@
 use std::fmt::Write as _;
 
 use nephroid::desc::{FilterKind, IntegratorKind, Render, View};
-use nephroid::{Checkpoint, Light, LightId, Scene, SceneDesc, film_bytes, scene_hash};
+use nephroid::{Checkpoint, Light, SceneDesc, Survey, film_bytes, scene_hash};
 
 use crate::args::InfoArgs;
 use crate::checkpoint;
 use crate::failure::{Failure, OK, Outcome};
 use crate::say;
-use crate::scene::{compiled, describe};
+use crate::scene::{describe, surveyed};
 
 /// Lights that are listed one by one.
 const LISTED: usize = 20;
@@ -20,7 +20,7 @@ pub fn run(args: &InfoArgs) -> Outcome {
         return checkpoint::info(&args.scene.scene);
     }
     let mut described = describe(&args.scene, Vec::new())?;
-    let (scene, warnings) = compiled(&mut described, 0)?;
+    let (survey, warnings) = surveyed(&mut described)?;
     if !warnings.is_empty() {
         say::say(say::painted(&warnings).trim_end());
     }
@@ -28,8 +28,8 @@ pub fn run(args: &InfoArgs) -> Outcome {
     let mut text = String::new();
     row(&mut text, "scene", &format!("{} ({hash})", args.scene.scene.display()));
     settings(&mut text, &described.desc);
-    contents(&mut text, &scene.scene);
-    lights(&mut text, &scene.scene);
+    contents(&mut text, &survey);
+    lights(&mut text, &survey.lights);
     say::print(&text)?;
     Ok(OK)
 }
@@ -73,37 +73,37 @@ pub fn settings(text: &mut String, desc: &SceneDesc) {
 }
 
 /// Counts, bounds and memory.
-fn contents(text: &mut String, scene: &Scene) {
-    let s = scene.summary();
+fn contents(text: &mut String, survey: &Survey) {
+    let s = survey.summary;
     let mut objects = format!("{}, {} triangles", s.objects, s.triangles);
     if s.groups + s.instances > 0 {
         let _ = write!(objects, "; {} instances of {} groups", s.instances, s.groups);
     }
     row(text, "objects", &objects);
     row(text, "materials", &format!("{}, {} textures", s.materials, s.textures));
-    let b = scene.bounds();
+    let b = survey.bounds;
     let point = |p: nephroid::Vec3| format!("({}, {}, {})", p.x, p.y, p.z);
     let bounds =
         if b.is_empty() { "empty".to_owned() } else { format!("{} to {}", point(b.min), point(b.max)) };
     row(text, "bounds", &bounds);
-    let film = film_bytes(scene.resolution());
+    let film = film_bytes(survey.resolution);
     let parts =
-        [("meshes", s.mesh_bytes), ("BVH", s.bvh_bytes), ("textures", s.texture_bytes), ("film", film)];
+        [("meshes", s.mesh_bytes), ("BVH about", s.bvh_bytes), ("textures", s.texture_bytes), ("film", film)];
     let memory: Vec<_> = parts.iter().map(|(name, n)| format!("{name} {}", bytes(*n))).collect();
     row(text, "memory", &memory.join(", "));
 }
 
 /// Lights by power, the strongest first.
-fn lights(text: &mut String, scene: &Scene) {
+fn lights(text: &mut String, lights: &[(String, Light)]) {
     let watts = |light: &Light| light.power().to_rgb().map(f64::from).iter().sum::<f64>() / 3.0;
-    let mut all: Vec<(u32, f64)> = (0u32..).zip(scene.lights().iter().map(watts)).collect();
+    let mut all: Vec<(usize, f64)> = lights.iter().map(|(_, light)| watts(light)).enumerate().collect();
     all.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
     let total: f64 = all.iter().map(|(_, w)| w).sum();
     row(text, "lights", &format!("{}, {} W", all.len(), watts_text(total)));
     for (id, power) in all.iter().take(LISTED) {
         let share = if total > 0.0 { 100.0 * power / total } else { 0.0 };
-        let name = scene.light_name(LightId(*id));
-        let kind = kind(scene.light(LightId(*id)));
+        let (name, light) = &lights[*id];
+        let kind = kind(light);
         let _ = writeln!(text, "{:>10} W {share:>5.1} %  {kind} {name}", watts_text(*power));
     }
     if all.len() > LISTED {

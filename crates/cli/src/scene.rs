@@ -3,8 +3,8 @@
 use std::time::Instant;
 
 use nephroid::{
-    Checkpoint, CompileError, Compiled, Diagnostic, Overrides, Phase, SceneDesc, Sources, Timings, compile,
-    load, render_all, strict,
+    Checkpoint, CompileError, Compiled, Diagnostic, Overrides, Phase, SceneDesc, Sources, Survey, Timings,
+    compile, load, render_all, strict, survey,
 };
 
 use crate::args::SceneArgs;
@@ -56,6 +56,23 @@ pub fn compiled(described: &mut Described, threads: usize) -> Result<(Compiled, 
         Ok(compiled) => {
             diagnostics.extend(compiled.warnings.iter().cloned());
             Ok((compiled, render_all(&diagnostics, &described.sources)))
+        }
+        Err(CompileError::Threads(reason)) => Err(Failure::runtime(CompileError::Threads(reason))),
+        Err(CompileError::Scene(errors)) => {
+            diagnostics.extend(errors);
+            Err(Failure::Scene(render_all(&diagnostics, &described.sources), Vec::new()))
+        }
+    }
+}
+
+/// Looks at a scene on all cores, without building what rays need; warnings as of [`compiled`].
+pub fn surveyed(described: &mut Described) -> Result<(Survey, String), Failure> {
+    let result = survey(&described.desc, 0);
+    let mut diagnostics = std::mem::take(&mut described.warnings);
+    match result {
+        Ok((survey, told)) => {
+            diagnostics.extend(told);
+            Ok((survey, render_all(&diagnostics, &described.sources)))
         }
         Err(CompileError::Threads(reason)) => Err(Failure::runtime(CompileError::Threads(reason))),
         Err(CompileError::Scene(errors)) => {

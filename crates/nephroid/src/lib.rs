@@ -47,7 +47,7 @@ pub use integrators::{
     Settings, Technique, VertexRecord,
 };
 pub use math::Vec3;
-pub use scene::{Light, LightId, Scene};
+pub use scene::{Light, LightId, Scene, Survey};
 pub use scenefile::{
     Diagnostic, Loaded, SceneDesc, Severity, Sources, UnknownTopic, desc, describe, parse, render_all,
     to_toml, topics,
@@ -57,5 +57,5 @@ pub use session::{
     Control, Event, Extent, Job, MergeError, Outcome, Output, OutputKind, Overrides, Phase, PictureError,
     PictureInfo, Remaining, ReplayError, ReplayKey, Replayed, Resumed, SceneHash, Session, SessionError,
     Timings, Warning, check_outputs, compile, film_bytes, gaps, merge, overwritten_inputs, replay, resume,
-    said, scene_hash, settings, write_checkpoint,
+    said, scene_hash, settings, survey, write_checkpoint,
 };

@@ -15,7 +15,7 @@ pub mod target;
 pub mod texture;
 
 pub use camera::Camera;
-pub use compile::compile;
+pub use compile::{compile, survey};
 pub use interaction::{LightId, SurfaceInteraction};
 pub use light::Light;
 pub use material::{
@@ -23,7 +23,7 @@ pub use material::{
     FloatSource, Material, MaterialId, MaterialKind, Opacity, PrincipledMaterial, RoughnessSource,
 };
 pub use medium::{Boundary, Medium, MediumStack};
-pub use scene::{Scene, Summary};
+pub use scene::{Scene, Summary, Survey};
 pub use shape::{Object, Shape};
 pub use target::{Target, Targets};
 pub use texture::Texture;

@@ -353,6 +353,19 @@ impl Scene {
             texture_bytes: texture_bytes(&self.textures),
         }
     }
+
+    /// What is told of it; the tracing structures' size is what they would take.
+    pub(crate) fn into_survey(self) -> Survey {
+        let instances = self.outer.iter().filter(|o| matches!(o, Outer::Instance { .. })).count() as u64;
+        let bvh_bytes =
+            Bvh::BYTES_PER_TRIANGLE * self.triangles + size_of::<Transform>() as u64 * 2 * instances;
+        Survey {
+            summary: Summary { bvh_bytes, ..self.summary() },
+            bounds: self.bounds,
+            resolution: self.resolution,
+            lights: self.light_names.into_iter().zip(self.lights).collect(),
+        }
+    }
 }
 
 /// The factor on the radiance of an object at a point of it, averaged over about `width`, in units of length.
@@ -422,6 +435,19 @@ pub struct Summary {
     pub bvh_bytes: u64,
     /// Bytes of images.
     pub texture_bytes: u64,
+}
+
+/// What is in a scene, without the means to trace it.
+#[derive(Clone, Debug)]
+pub struct Survey {
+    /// Counts and sizes; that of the ray tracing structures is an estimate.
+    pub summary: Summary,
+    /// A box around all surfaces; empty where there is none.
+    pub bounds: Bounds3,
+    /// Width and height of the picture.
+    pub resolution: [u32; 2],
+    /// Lights with their names.
+    pub lights: Vec<(String, Light)>,
 }
 
 /// The dielectrics that `p` is inside of: those whose boundaries a ray from `p` leaves more often than it enters.

@@ -2,7 +2,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use par::Workers;
-use scene::Scene;
+use scene::{Scene, Survey};
 use scenefile::{Diagnostic, SceneDesc};
 
 use crate::surroundings::camera_warning;
@@ -53,9 +53,52 @@ pub fn compile(desc: &SceneDesc, threads: usize) -> Result<Compiled, CompileErro
     Ok(Compiled { scene: Arc::new(scene), warnings })
 }
 
+/// Looks at what a description makes, as [`compile`] does, without building what rays need; that the camera is inside of something
+/// is not found out.
+///
+/// # Errors
+/// As [`compile`].
+pub fn survey(desc: &SceneDesc, threads: usize) -> Result<(Survey, Vec<Diagnostic>), CompileError> {
+    let workers = Workers::new(threads).map_err(CompileError::Threads)?;
+    workers.run(|| scene::survey(desc)).map_err(CompileError::Scene)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use scenefile::desc::{
+        Camera, Group, Instance, Light, LightKind, Material, Object, Shape, TransformStep,
+    };
+
+    #[test]
+    fn a_survey_tells_what_the_scene_has() {
+        let mut desc = SceneDesc { camera: Some(Camera::default().into()), ..SceneDesc::default() };
+        let ball = |level| {
+            Object::new(
+                Shape::Icosphere { center: [0.0; 3], radius: 1.0, level, smooth: true },
+                Material::diffuse(0.5),
+            )
+        };
+        desc.objects.push(ball(5).into());
+        desc.groups.insert("g".into(), Group { objects: vec![ball(3).into()] }.into());
+        for x in [3.0, 9.0] {
+            let transform = vec![TransformStep::Translate([x, 0.0, 0.0])];
+            desc.instances.push(Instance { name: None, group: "g".into(), transform, material: None }.into());
+        }
+        desc.lights.push(Light::from(LightKind::Environment { radiance: [1.0; 3] }).into());
+        let scene = compile(&desc, 2).unwrap().scene;
+        let (survey, _) = survey(&desc, 2).unwrap();
+        let (a, b) = (survey.summary, scene.summary());
+        assert_eq!(survey.bounds, scene.bounds());
+        assert_eq!(
+            (a.objects, a.instances, a.triangles, a.mesh_bytes),
+            (b.objects, b.instances, b.triangles, b.mesh_bytes)
+        );
+        assert_eq!(survey.lights[0].1.power(), scene.lights()[0].power());
+        // An estimate, within a third.
+        let ratio = a.bvh_bytes as f64 / b.bvh_bytes as f64;
+        assert!((0.67..1.5).contains(&ratio), "{} {}", a.bvh_bytes, b.bvh_bytes);
+    }
 
     #[test]
     fn a_scene_without_camera_is_refused_with_the_reason() {

@@ -29,7 +29,7 @@ pub use checkpoint::{
     Checkpoint, CheckpointError, CheckpointErrorKind, CheckpointFile, CheckpointInfo, MergeError, ReadScene,
     SceneSource, merge, write_checkpoint,
 };
-pub use compile::{CompileError, Compiled, compile};
+pub use compile::{CompileError, Compiled, compile, survey};
 pub use event::{Control, Event, Warning};
 pub use hash::{SceneHash, scene_hash};
 pub use job::{Job, SessionError, film_bytes};

@@ -50,6 +50,30 @@ pub(crate) fn build(mut geometry: Geometry) -> Bvh {
     }
 }
 
+/// The bounds alone.
+pub(crate) fn outline(geometry: &Geometry) -> Bvh {
+    let corner = |i: u32| geometry.positions[i as usize];
+    let parts = par::map_chunks(geometry.triangles.len(), CHUNK, |range| {
+        Bounds3::of_points(range.flat_map(|i| geometry.triangles[i].map(corner)))
+    });
+    let others = (geometry.spheres.iter().map(|s| s.0.bounds()))
+        .chain(geometry.disks.iter().map(|d| d.0.bounds()))
+        .chain(geometry.instances.iter().map(|i| i.bounds()));
+    Bvh {
+        root: None,
+        nodes: Vec::new(),
+        packs: Vec::new(),
+        spheres: Vec::new(),
+        disks: Vec::new(),
+        instances: Vec::new(),
+        ids: Vec::new(),
+        first_sphere_id: 0,
+        first_disk_id: 0,
+        bounds: parts.into_iter().chain(others).fold(Bounds3::EMPTY, Bounds3::union),
+        dispatch: Dispatch::detect(),
+    }
+}
+
 fn primitives_of(geometry: &Geometry) -> Vec<Primitive> {
     let triangles = par::map_chunks(geometry.triangles.len(), CHUNK, |range| {
         let corner = |i: u32| geometry.positions[i as usize];

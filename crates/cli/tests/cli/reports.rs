@@ -19,7 +19,7 @@ fn info_says_what_is_in_a_scene() {
         objects     4, 2 triangles
         materials   4, 0 textures
         bounds     
-        memory      meshes _ B, BVH _ B, textures _ B, film _ KiB
+        memory      meshes _ B, BVH about _ B, textures _ B, film _ KiB
         lights      2, 40.00 W
              30.00 W  _ %  disk lamp
              10.00 W  _ %  point bulb

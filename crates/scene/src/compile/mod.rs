@@ -21,8 +21,8 @@ use crate::camera::{CameraError, Fov, Lens, Side};
 use crate::light::LightPicker;
 use crate::scene::{CameraMedia, Group, LightTexture, Outer, light_factor, media_at};
 use crate::{
-    Camera, Light, LightId, Material, MaterialId, MaterialKind, MediumStack, Object, Scene, Shape, Target,
-    Targets,
+    Camera, Light, LightId, Material, MaterialId, MaterialKind, MediumStack, Object, Scene, Shape, Survey,
+    Target, Targets,
 };
 use materials::Library;
 use shapes::Solid;
@@ -38,6 +38,34 @@ pub fn compile(desc: &SceneDesc) -> Result<(Scene, Vec<Diagnostic>), Vec<Diagnos
     Compiler::new(desc).run()
 }
 
+/// Looks at what a description makes without making it ready for rays. As [`compile`], but for the tracing structures, of which the size
+/// alone is told.
+///
+/// # Errors
+/// As [`compile`].
+pub fn survey(desc: &SceneDesc) -> Result<(Survey, Vec<Diagnostic>), Vec<Diagnostic>> {
+    let compiler = Compiler { purpose: Purpose::Survey, ..Compiler::new(desc) };
+    compiler.run().map(|(scene, told)| (scene.into_survey(), told))
+}
+
+/// What a scene is compiled for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Purpose {
+    /// To be rendered.
+    Render,
+    /// To be described.
+    Survey,
+}
+
+impl Purpose {
+    fn bvh(self, geometry: Geometry) -> Bvh {
+        match self {
+            Self::Render => Bvh::build(geometry),
+            Self::Survey => Bvh::outline(&geometry),
+        }
+    }
+}
+
 /// A placed solid, its material and its light.
 struct Placed<'d> {
     solid: Solid,
@@ -50,6 +78,7 @@ struct Placed<'d> {
 
 struct Compiler<'d> {
     desc: &'d SceneDesc,
+    purpose: Purpose,
     library: Library<'d>,
     diagnostics: Vec<Diagnostic>,
     lights: Vec<Light>,
@@ -72,6 +101,7 @@ impl<'d> Compiler<'d> {
     fn new(desc: &'d SceneDesc) -> Self {
         Self {
             desc,
+            purpose: Purpose::Render,
             library: Library::new(desc),
             diagnostics: Vec::new(),
             lights: Vec::new(),
@@ -306,7 +336,7 @@ impl<'d> Compiler<'d> {
                 self.object(p.solid, p.material, None, false)
             })
             .collect();
-        Group { objects, bvh: Arc::new(Bvh::build(geometry)) }
+        Group { objects, bvh: Arc::new(self.purpose.bvh(geometry)) }
     }
 
     fn add_light(&mut self, light: &Sourced<scenefile::desc::Light>) {
@@ -400,7 +430,7 @@ impl<'d> Compiler<'d> {
     }
 
     fn finish(mut self, camera: Camera, groups: Vec<Group>) -> (Scene, Vec<Diagnostic>) {
-        let bvh = Bvh::build(std::mem::take(&mut self.geometry));
+        let bvh = self.purpose.bvh(std::mem::take(&mut self.geometry));
         for light in &mut self.lights {
             light.preprocess(self.bounds);
         }
