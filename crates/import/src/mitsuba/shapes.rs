@@ -3,14 +3,15 @@
 use std::rc::Rc;
 
 use scenefile::desc::{
-    Emission, Group, Instance, Material, MaterialKind, MaterialRef, Normals, Object, Shape, Triple,
+    Emission, FloatDesc, Group, Instance, Material, MaterialKind, MaterialRef, Normals, Object, Roughness,
+    Shape, Triple,
 };
 use scenefile::{Diagnostic, Sourced};
 
 use super::Importer;
 use super::bsdf::{Use, Uv, each_part};
 use super::plugin::{Plugin, Tag};
-use crate::matrix::{Matrix, add, length, narrow, sub};
+use crate::matrix::{Matrix, add, length, narrow, sub, unit};
 use crate::names::free_name;
 use crate::report::nearest;
 use crate::surfaces::{self, Mesh};
@@ -104,7 +105,7 @@ impl Importer {
         let needs = Needs {
             sides: emission.is_some() || material.as_ref().is_some_and(|m| self.has_sides(m)),
             uvs: emission.as_ref().is_some_and(|e| e.texture.is_some())
-                || material.as_ref().is_some_and(|m| self.textured.contains(m)),
+                || material.as_ref().is_some_and(|m| self.textured.contains(m) || self.is_anisotropic(m)),
         };
         let made = self.made(plugin, needs);
         plugin.finish(&mut self.report);
@@ -286,8 +287,7 @@ impl Importer {
                     .map(|(name, default)| plugin.triple(report, name).unwrap_or(default));
                 let radius = plugin.positive(report, "radius", 1.0);
                 let along = sub(p1, p0);
-                let frame = Matrix::look_at(p0, p1, any_across(along)).and_then(|m| m.inverse());
-                let Some(frame) = frame else {
+                let Some(frame) = upright(p0, along) else {
                     report.error("degenerate", format!("{} has no length", plugin.what()), plugin.span);
                     return None;
                 };
@@ -312,6 +312,26 @@ impl Importer {
         }
     }
 
+    /// Whether it matters which way a material's surface is combed.
+    fn is_anisotropic(&self, name: &str) -> bool {
+        let Some(material) = self.desc.materials.get(name) else { return false };
+        let mut found = false;
+        each_part(&mut material.value.clone(), &mut |m| {
+            let roughness = match &m.kind {
+                MaterialKind::Conductor(m) => &m.roughness,
+                MaterialKind::Dielectric(m) => &m.roughness,
+                MaterialKind::CoatedDiffuse(m) => &m.roughness,
+                MaterialKind::Principled(m) => &m.roughness,
+                _ => return,
+            };
+            found |= match roughness {
+                Roughness::Perceived { anisotropy, .. } => *anisotropy != FloatDesc::Value(0.0),
+                Roughness::Alpha { along, across } => along != across,
+            };
+        });
+        found
+    }
+
     /// Whether a material's two sides differ.
     pub(super) fn has_sides(&self, name: &str) -> bool {
         let Some(material) = self.desc.materials.get(name) else { return true };
@@ -324,9 +344,19 @@ impl Importer {
     }
 }
 
-/// A direction that is not parallel to another.
-fn any_across(along: [f64; 3]) -> [f64; 3] {
-    if along[0].abs() > along[1].abs() { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] }
+/// The origin at a place and +z along a direction, +x and +y as Mitsuba has them (Duff et al. 2017, "Building an
+/// Orthonormal Basis, Revisited"). `None`: the direction has no length.
+fn upright(origin: [f64; 3], along: [f64; 3]) -> Option<Matrix> {
+    let [x, y, z] = unit(along)?;
+    let sign = 1f64.copysign(z);
+    let a = -1.0 / (sign + z);
+    let b = x * y * a;
+    Some(Matrix([
+        [1.0 + sign * x * x * a, b, x, origin[0]],
+        [sign * b, sign + y * y * a, y, origin[1]],
+        [-sign * x, -y, z, origin[2]],
+        [0.0, 0.0, 0.0, 1.0],
+    ]))
 }
 
 /// A mesh in place.
@@ -369,6 +399,16 @@ fn cube() -> Mesh {
 mod tests {
     use super::*;
     use crate::matrix::{cross, dot, wide};
+
+    #[test]
+    fn frames_of_cylinders() {
+        for along in [[0.0, 0.0, 2.0], [0.0, 0.0, -1.0], [0.3, 1.7, 0.0], [-1.0, 0.5, -0.2]] {
+            let m = upright([1.0, 2.0, 3.0], along).unwrap();
+            let tip = sub(m.point([0.0, 0.0, length(along)]), add([1.0, 2.0, 3.0], along));
+            assert!(length(tip) < 1e-12 && (m.determinant() - 1.0).abs() < 1e-12);
+        }
+        assert!(upright([0.0; 3], [0.0; 3]).is_none());
+    }
 
     #[test]
     fn the_cube_faces_outward() {
