@@ -13,6 +13,7 @@ use scenefile::{Loaded, Severity};
 
 const SENSOR: &str = r#"<sensor type="perspective"><float name="fov" value="40"/></sensor>"#;
 const LAMP: &str = r#"<emitter type="constant"/>"#;
+const BALL: &str = r#"<shape type="sphere"/>"#;
 const PATH: &str = r#"<integrator type="path"/>"#;
 
 fn read(folder: &Path, text: &str, overrides: &[&str]) -> Loaded {
@@ -70,7 +71,7 @@ fn wrong(body: &str, what: &str) {
 }
 
 fn doubtful(body: &str, what: &str) {
-    let (messages, renders) = said(body);
+    let (messages, renders) = said(&format!("{body}{BALL}"));
     assert!(renders && messages.len() == 1 && messages[0].contains(what), "{messages:?}");
 }
 
@@ -271,7 +272,8 @@ fn shapes() {
     let group = &desc.groups[&desc.instances[0].group.value];
     assert_eq!((group.objects.len(), desc.groups.len()), (2, 1));
     let Shape::Triangles { positions, .. } = &desc.objects[4].shape.value else { panic!() };
-    assert!(positions.iter().all(|p| (p[0].hypot(p[2]) - 1.0).abs() < 1e-5 || p[0] * p[2] != 0.0));
+    // About z in its own space, from 0 to the distance of its ends.
+    assert!(positions.iter().all(|p| (p[0].hypot(p[1]) - 1.0).abs() < 1e-5 && (p[2] == 0.0 || p[2] == 2.0)));
 }
 
 #[test]
@@ -307,7 +309,7 @@ fn includes_and_overrides() {
 #[test]
 fn lights() {
     let kinds = |body: &str| {
-        let desc = scene(body);
+        let desc = scene(&format!("{body}{BALL}"));
         desc.lights.into_iter().skip(1).map(|l| l.value.kind).collect::<Vec<_>>()
     };
     let spot = r#"<emitter type="spot"><float name="cutoff_angle" value="40"/><float name="intensity" value="2"/>
@@ -337,7 +339,7 @@ fn lights() {
 fn windows_of_films() {
     let film = |film: &str, extra: &str| {
         let text = format!(
-            "<scene version='3.0.0'>{PATH}{LAMP}<sensor type='perspective'><float name='fov' value='90'/>{extra}
+            "<scene version='3.0.0'>{PATH}{LAMP}{BALL}<sensor type='perspective'><float name='fov' value='90'/>{extra}
             <film type='hdrfilm'><integer name='width' value='200'/><integer name='height' value='100'/>{film}</film></sensor></scene>"
         );
         clean(&text)
