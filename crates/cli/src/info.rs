@@ -116,6 +116,7 @@ fn kind(light: &Light) -> &'static str {
     match light {
         Light::Point(_) => "point",
         Light::Spot(_) => "spot",
+        Light::Shaped(_) => "shaped",
         Light::Directional(_) => "directional",
         Light::Environment(_) | Light::Sky(_) => "environment",
         Light::Sun(_) => "sun",

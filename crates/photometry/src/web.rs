@@ -172,6 +172,22 @@ impl Web {
         [polar, polar + 1].map(|j| f64::from(self.polar[j]).to_radians().cos())
     }
 
+    /// The share of a cell's polar angles that lies before the share `v` of its solid angle.
+    pub fn share_of_angle(&self, polar: usize, v: f32) -> f32 {
+        let [a, b] = self.cosines(polar);
+        let [low, high] = [self.polar[polar], self.polar[polar + 1]].map(f64::from);
+        let theta = (a + (b - a) * f64::from(v)).clamp(-1.0, 1.0).acos().to_degrees();
+        (((theta - low) / (high - low)) as f32).clamp(0.0, 1.0)
+    }
+
+    /// The least angle from straight down, degrees, beyond which there is no light; `None` where the grid has another axis.
+    pub fn widest(&self) -> Option<f32> {
+        let n = self.polar.len();
+        let lit = |j: usize| self.candela.iter().skip(j).step_by(n).any(|&x| x > 0.0);
+        let last = (0..n).rev().find(|&j| lit(j)).unwrap_or(0);
+        (self.axis == PolarAxis::Down).then(|| self.polar[(last + 1).min(n - 1)])
+    }
+
     /// Solid angle of a cell, sr.
     pub fn solid_angle(&self, azimuth: usize, polar: usize) -> f64 {
         let [a, b] = self.cosines(polar);

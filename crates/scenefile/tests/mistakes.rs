@@ -656,7 +656,7 @@ fn exclusive_keys() {
               |            ^
               = help: `diffuse` and `specular` must add up to at most 1 in each channel
 
-            error[conflict]: `color` without `power` in object 1
+            error[conflict]: `color` without `power`, `lumens` or `nits` in object 1
               --> box.toml:15:1
                |
             15 | color = 0.5
@@ -695,7 +695,7 @@ fn exclusive_keys() {
             28 | target = [0, 1, 0]
                |          ^^^^^^^^^
 
-            error[out-of-range]: `color` of light 1 is black: it cannot be scaled to a power
+            error[out-of-range]: `color` of light 1 is black: it cannot be scaled to an amount
               --> box.toml:30:9
                |
             30 | color = 0

@@ -10,7 +10,7 @@ use scenefile::{Loaded, SceneDesc, describe, parse, topics};
 /// A folder with the files that examples name.
 fn folder() -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
-    for file in ["wood.png", "other.png", "bunny.ply", "other.ply"] {
+    for file in ["wood.png", "other.png", "bunny.ply", "other.ply", "lamp.ies", "other.ies"] {
         std::fs::write(folder.path().join(file), "").unwrap();
     }
     folder
@@ -72,10 +72,12 @@ fn sample(key: &Key, second: bool) -> String {
         Kind::Color(_) | Kind::ColorOrTexture(_) => "[0.25, 0.125, 0.375]".into(),
         Kind::Ior(_) => "\"water\"".into(),
         Kind::File(extensions) => {
-            let stem = if extensions.contains(&"ply") { "ply" } else { "png" };
+            let stem = ["ply", "ies"].into_iter().find(|stem| extensions.contains(stem)).unwrap_or("png");
             match (stem, second) {
                 ("ply", false) => "\"bunny.ply\"".into(),
                 ("ply", true) => "\"other.ply\"".into(),
+                ("ies", false) => "\"lamp.ies\"".into(),
+                ("ies", true) => "\"other.ies\"".into(),
                 (_, false) => "\"wood.png\"".into(),
                 (_, true) => "\"other.png\"".into(),
             }
@@ -104,13 +106,20 @@ fn sample(key: &Key, second: bool) -> String {
 fn companions(section: &Section, kind: &str, key: &str) -> (&'static [&'static str], &'static str) {
     match (section.name, kind, key) {
         ("objects", "quad", "corners") => (&["origin", "edge_u", "edge_v"], ""),
-        ("objects", _, "radiance" | "power") => (&["material"], ""),
-        ("objects", _, "color") => (&[], "power = 3\n"),
+        ("objects", _, "radiance" | "power" | "lumens" | "nits") => (&["material"], ""),
+        ("objects", _, "color" | "temperature") => (&[], "power = 3\n"),
         ("objects", _, "emission_texture" | "two_sided_emission" | "light_group") => (&[], "radiance = 3\n"),
         ("objects", "band", "inner_radius") => (&[], "outer_radius = 9\n"),
         ("objects", "mesh" | "triangles", "crease_angle") => (&[], "normals = \"smooth\"\n"),
-        ("lights", "point" | "spot", "power") => (&["intensity"], ""),
-        ("lights", "point" | "spot", "color") => (&["intensity"], "power = 3\n"),
+        ("lights", "point" | "spot" | "goniometric" | "projector", "power" | "lumens" | "candela") => {
+            (&["intensity"], "")
+        }
+        ("lights", "point" | "spot", "color" | "temperature") => (&["intensity"], "power = 3\n"),
+        ("lights", "goniometric" | "projector", "color" | "temperature") => (&["intensity"], "candela = 3\n"),
+        ("lights", "directional", "lux") => (&["irradiance"], ""),
+        ("lights", "directional", "color" | "temperature") => (&["irradiance"], "lux = 3\n"),
+        ("lights", "environment", "nits" | "lux") => (&["radiance"], ""),
+        ("lights", "environment", "color" | "temperature") => (&["radiance"], "nits = 3\n"),
         ("lights", "spot", "target") => (&["direction"], ""),
         ("materials", "conductor" | "coated-conductor", "metal") => (&["n", "k"], ""),
         ("lights", "environment", "radiance") => (&["file"], ""),
@@ -132,7 +141,8 @@ fn companions(section: &Section, kind: &str, key: &str) -> (&'static [&'static s
 fn scene(section: &Section, variant: Option<&Variant>, more: &str, without: &[&str]) -> String {
     let kind = variant.map_or("", |variant| variant.name);
     let keys: Vec<&Key> = section.keys.iter().chain(variant.into_iter().flat_map(Variant::keys)).collect();
-    let essential = ["edge_u", "edge_v", "origin", "material", "intensity", "direction", "n", "k"];
+    let essential =
+        ["edge_u", "edge_v", "origin", "material", "intensity", "irradiance", "direction", "n", "k"];
     let mut lines = String::new();
     for key in keys {
         let needed = key.preset == Preset::Required
@@ -266,7 +276,7 @@ fn ranges_hold_at_their_ends() {
                 for (value, allowed) in values {
                     // Other rules than the range bind these.
                     let bound = (allowed && key.name == "falloff_angle")
-                        || (allowed && key.name == "color" && with.contains("power"))
+                        || (allowed && key.name == "color" && ["lights", "objects"].contains(&section.name))
                         || (allowed && kind == "phong" && key.name != "exponent")
                         || (allowed && kind == "diffuse-transmission");
                     if bound {

@@ -357,7 +357,31 @@ impl Dice {
             PointAmount::Power { watts: 1.0 + self.unit(), color: self.amount().map(|x| x.min(1e3)) }
         };
         let position = self.triple();
-        let kind = match self.below(6) {
+        let picture = || ImageSource::from("wölk \"1\".hdr");
+        let mapping = [SkyMapping::LatLong, SkyMapping::EqualArea][self.below(2) as usize];
+        let kind = match self.below(9) {
+            8 => {
+                let color = self.amount().map(|x| x.clamp(1e-3, 1e3));
+                let amount = if self.coin() {
+                    ProfileAmount::AsFile { scale: self.positive(), color }
+                } else {
+                    ProfileAmount::Power { watts: 1.0 + self.unit(), color }
+                };
+                let file = Path::new("lämp.ies").to_path_buf().into();
+                LightKind::Profile { file, transform: self.steps(), amount }
+            }
+            7 => LightKind::Goniometric {
+                source: picture(),
+                mapping,
+                intensity: self.amount(),
+                transform: self.steps(),
+            },
+            6 => LightKind::Projector {
+                source: picture(),
+                fov: 1.0 + 178.0 * self.unit(),
+                intensity: self.amount(),
+                transform: self.steps(),
+            },
             5 => LightKind::SunSky(SunSky {
                 sun_direction: self.direction(),
                 turbidity: 1.0 + 9.0 * self.unit(),
@@ -543,7 +567,7 @@ impl Dice {
 #[test]
 fn scenes_read_back_as_they_were() {
     let folder = tempfile::tempdir().unwrap();
-    for file in ["pic\\ture.png", "cöw \"1\".ply", "wölk \"1\".hdr"] {
+    for file in ["pic\\ture.png", "cöw \"1\".ply", "wölk \"1\".hdr", "lämp.ies"] {
         std::fs::write(folder.path().join(file), "").unwrap();
     }
     let path = folder.path().join("scene.toml");

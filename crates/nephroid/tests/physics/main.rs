@@ -23,6 +23,7 @@ mod noise;
 mod oracle;
 mod partition;
 mod replay;
+mod shaped_lights;
 mod sky;
 mod sppm;
 mod support;

@@ -8,8 +8,8 @@ use scenefile::desc::{
 use super::shapes::{self, Solid};
 use crate::Light;
 use crate::light::{
-    DirectionalLight, DiskLight, EnvironmentLight, PointLight, Sides, SkyLight, SphereLight, SpotLight,
-    TriangleLight,
+    DirectionalLight, DiskLight, EnvironmentLight, IntensityShape, PointLight, Sides, SkyLight, SphereLight,
+    SpotLight, TriangleLight,
 };
 use crate::texture::{Encoding, Picture, Wanted};
 
@@ -112,6 +112,18 @@ pub(super) fn sky(
     steps: &[TransformStep],
 ) -> Result<Light, String> {
     let turned = shapes::transform(steps).and_then(|t| turn(&t)).ok_or("its transform is singular")?;
+    let (size, pixels) = picture_of_sphere(desc, source, mapping)?;
+    let pixels = pixels.iter().map(|p| [0, 1, 2].map(|c| p[c] * scale[c])).collect();
+    SkyLight::new(mapping, size, pixels, turned)
+        .map(|sky| Light::Sky(Box::new(sky)))
+        .ok_or_else(|| "it is black, or holds values that are negative or not finite".into())
+}
+
+/// A picture's size and its pixels, linear RGB, rows from the top.
+pub(super) type Pixels = ([usize; 2], Vec<[f32; 3]>);
+
+/// A picture that lights shine by.
+pub(super) fn picture(desc: &SceneDesc, source: &ImageSource) -> Result<Pixels, String> {
     let image = match source {
         ImageSource::File(file) => Picture::from_path(&desc.resolve(file), Encoding::Srgb, Wanted::Color),
         ImageSource::Embedded(image) => {
@@ -120,17 +132,22 @@ pub(super) fn sky(
     };
     let image = image.map_err(|e| e.to_string())?;
     let [width, height] = image.size();
-    if mapping == SkyMapping::EqualArea && width != height {
-        return Err(format!("a picture of equal areas is square, this one has {width} × {height} pixels"));
+    Ok(([width, height], (0..width * height).map(|i| image.pixel(i)).collect()))
+}
+
+/// The same of the whole sphere.
+pub(super) fn picture_of_sphere(
+    desc: &SceneDesc,
+    source: &ImageSource,
+    mapping: SkyMapping,
+) -> Result<Pixels, String> {
+    let picture = picture(desc, source)?;
+    match (mapping, picture.0) {
+        (SkyMapping::EqualArea, [width, height]) if width != height => {
+            Err(format!("a picture of equal areas is square, this one has {width} × {height} pixels"))
+        }
+        _ => Ok(picture),
     }
-    let pixel = |i| {
-        let [r, g, b] = image.pixel(i);
-        [r * scale[0], g * scale[1], b * scale[2]]
-    };
-    let pixels = (0..width * height).map(pixel).collect();
-    SkyLight::new(mapping, [width, height], pixels, turned)
-        .map(|sky| Light::Sky(Box::new(sky)))
-        .ok_or_else(|| "it is black, or holds values that are negative or not finite".into())
 }
 
 /// The part of a transform that turns (and mirrors): what it makes of the axes, made a right-angled frame of unit length.
@@ -148,6 +165,11 @@ pub(super) fn kind_name(light: &Light) -> &'static str {
     match light {
         Light::Point(_) => "point light",
         Light::Spot(_) => "spot light",
+        Light::Shaped(light) => match light.shape() {
+            IntensityShape::Profile(_) => "profile light",
+            IntensityShape::Goniometric(_) => "goniometric light",
+            IntensityShape::Slide(_) => "projector",
+        },
         Light::Directional(_) => "directional light",
         Light::Environment(_) | Light::Sky(_) => "environment",
         Light::Sun(_) => "sun",

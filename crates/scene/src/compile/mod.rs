@@ -2,6 +2,7 @@
 
 mod lights;
 mod materials;
+mod shaped;
 mod shapes;
 mod sun_sky;
 mod textures;
@@ -352,6 +353,12 @@ impl<'d> Compiler<'d> {
                         Diagnostic::error("bad-image", message).at(span)
                     },
                 )
+            }
+            kind if let Some(built) = shaped::light(self.desc, kind, light.span) => {
+                built.map(|(light, point, mut notes)| {
+                    self.diagnostics.append(&mut notes);
+                    (light, Some(point))
+                })
             }
             kind => lights::light(kind).ok_or_else(|| {
                 let message = "this light has a direction of length zero or a value that is no number";

@@ -4,7 +4,7 @@ use color::Lanes;
 use math::{PI, Vec3, gamma};
 use sampling::warp;
 
-use super::{AreaEmission, SpotLight};
+use super::{AreaEmission, ShapedLight, SpotLight};
 
 /// A point of a light.
 pub(super) struct Origin {
@@ -34,6 +34,8 @@ pub(super) enum Emission<'a> {
     Uniform(Lanes),
     /// A spot's cone.
     Spot(&'a SpotLight),
+    /// Given by direction.
+    Shaped(&'a ShapedLight),
     /// Equal radiance on the emitting sides of a surface with this front normal.
     Lambert(&'a AreaEmission, Vec3),
 }
@@ -44,6 +46,7 @@ impl Emission<'_> {
         let w = match self {
             Self::Uniform(_) => warp::sphere(u),
             Self::Spot(spot) => spot.sample_direction(u),
+            Self::Shaped(light) => light.sample_direction(u),
             Self::Lambert(surface, ng) => surface.sample_direction(*ng, u),
         };
         let pdf_w = self.pdf_w(w);
@@ -55,6 +58,7 @@ impl Emission<'_> {
         match self {
             Self::Uniform(_) => warp::SPHERE_PDF_W,
             Self::Spot(spot) => spot.pdf_w(w),
+            Self::Shaped(light) => light.pdf_w(w),
             Self::Lambert(surface, ng) => surface.pdf_le_w(*ng, w),
         }
     }
@@ -66,6 +70,10 @@ impl Emission<'_> {
             Self::Uniform(intensity) => Some((*intensity, 1.0, Vec3::ZERO)),
             Self::Spot(spot) => {
                 let intensity = spot.intensity_along(w);
+                (!intensity.is_zero()).then_some((intensity, 1.0, Vec3::ZERO))
+            }
+            Self::Shaped(light) => {
+                let intensity = light.intensity_along(w);
                 (!intensity.is_zero()).then_some((intensity, 1.0, Vec3::ZERO))
             }
             Self::Lambert(surface, ng) => {
@@ -80,6 +88,7 @@ impl Emission<'_> {
         match self {
             Self::Uniform(_) => 4.0 * PI,
             Self::Spot(spot) => spot.solid_angle() as f32,
+            Self::Shaped(light) => light.solid_angle(),
             Self::Lambert(surface, _) => surface.spread(),
         }
     }
@@ -89,6 +98,7 @@ impl Emission<'_> {
         match self {
             Self::Uniform(_) => true,
             Self::Spot(spot) => spot.may_reach(to_center, radius),
+            Self::Shaped(light) => light.may_reach(to_center, radius),
             Self::Lambert(surface, ng) => surface.sides.may_reach(*ng, to_center, radius),
         }
     }

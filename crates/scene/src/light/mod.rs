@@ -12,9 +12,13 @@ mod directional;
 mod disk;
 mod emission;
 mod environment;
+mod goniometric;
 mod pattern;
 mod picker;
 mod point;
+mod profile;
+mod projector;
+mod shaped;
 mod sky;
 mod sphere;
 mod spot;
@@ -31,9 +35,13 @@ pub use directional::DirectionalLight;
 pub use disk::DiskLight;
 use emission::{Emission, Origin};
 pub use environment::EnvironmentLight;
+pub use goniometric::GoniometricShape;
 use pattern::Pattern;
 pub use picker::LightPicker;
 pub use point::PointLight;
+pub use profile::ProfileShape;
+pub use projector::SlideShape;
+pub use shaped::{IntensityShape, ShapedLight};
 pub use sky::SkyLight;
 pub use sphere::SphereLight;
 pub use spot::SpotLight;
@@ -47,6 +55,8 @@ pub enum Light {
     Point(PointLight),
     /// A point that shines within a cone.
     Spot(SpotLight),
+    /// A point that shines by direction: a measured luminaire, a picture.
+    Shaped(Box<ShapedLight>),
     /// Parallel light from infinity.
     Directional(DirectionalLight),
     /// Equal radiance from everywhere at infinity.
@@ -140,6 +150,7 @@ impl Light {
         match self {
             Self::Point(l) => l.sample_li(p),
             Self::Spot(l) => l.sample_li(p),
+            Self::Shaped(l) => l.sample_li(p),
             Self::Directional(l) => l.sample_li(p),
             Self::Environment(l) => l.sample_li(p, u),
             Self::Sky(l) => l.sample_li(p, u),
@@ -175,6 +186,7 @@ impl Light {
             Self::Triangles(l) => l.surface().emitted(ng, w),
             Self::Point(_)
             | Self::Spot(_)
+            | Self::Shaped(_)
             | Self::Directional(_)
             | Self::Environment(_)
             | Self::Sky(_)
@@ -193,7 +205,7 @@ impl Light {
     }
 
     /// The start of a light path: cosine-weighted over area lights (uniform in area), uniform over the sphere for
-    /// points, proportional to intensity for spots, over the scene's bounding disc for lights at infinity.
+    /// points, proportional to intensity for spots and (about) for shaped points, over the scene's bounding disc for lights at infinity.
     /// `None`: a dark photon.
     pub fn sample_le(&self, u_pick: f32, u_pos: [f32; 2], u_dir: [f32; 2]) -> Option<LeSample> {
         match self {
@@ -269,6 +281,7 @@ impl Light {
         match self {
             Self::Point(l) => l.power(),
             Self::Spot(l) => l.power(),
+            Self::Shaped(l) => l.power(),
             Self::Directional(l) => l.power(),
             Self::Environment(l) => l.power(),
             Self::Sky(l) => l.power(),
@@ -340,6 +353,7 @@ impl Light {
         };
         match self {
             Self::Spot(l) => any(Emission::Spot(l), l.position()),
+            Self::Shaped(l) => any(Emission::Shaped(l), l.position()),
             // A flat light sees the same height of a target from all its points.
             Self::Disk(l) => any(Emission::Lambert(l.surface(), l.normal()), l.center()),
             Self::Triangles(l) => l.faces().any(|(x, ng)| any(Emission::Lambert(l.surface(), ng), x)),
@@ -354,7 +368,7 @@ impl Light {
 
     /// Whether only [`Self::sample_li`] can find it: no ray hits it.
     pub fn is_delta(&self) -> bool {
-        matches!(self, Self::Point(_) | Self::Spot(_) | Self::Directional(_))
+        matches!(self, Self::Point(_) | Self::Spot(_) | Self::Shaped(_) | Self::Directional(_))
     }
 
     /// Whether it lies at infinity.
@@ -367,6 +381,7 @@ impl Light {
         match self {
             Self::Point(l) => Bounds3::of_points([l.position()]),
             Self::Spot(l) => Bounds3::of_points([l.position()]),
+            Self::Shaped(l) => Bounds3::of_points([l.position()]),
             Self::Directional(_) | Self::Environment(_) | Self::Sky(_) | Self::Sun(_) => Bounds3::EMPTY,
             Self::Sphere(l) => l.bounds(),
             Self::Disk(l) => l.bounds(),
@@ -391,6 +406,7 @@ impl Light {
         match self {
             Self::Point(l) => Some(Origin::at_point(l.position())),
             Self::Spot(l) => Some(Origin::at_point(l.position())),
+            Self::Shaped(l) => Some(Origin::at_point(l.position())),
             Self::Directional(_) | Self::Environment(_) | Self::Sky(_) | Self::Sun(_) => None,
             Self::Sphere(l) => Some(l.origin(u_pick, u_pos)),
             Self::Disk(l) => Some(l.origin(u_pick, u_pos)),
@@ -413,6 +429,7 @@ impl Light {
         match self {
             Self::Point(l) => Some(Emission::Uniform(l.intensity())),
             Self::Spot(l) => Some(Emission::Spot(l)),
+            Self::Shaped(l) => Some(Emission::Shaped(l)),
             Self::Directional(_) | Self::Environment(_) | Self::Sky(_) | Self::Sun(_) => None,
             Self::Sphere(l) => Some(Emission::Lambert(l.surface(), ng)),
             Self::Disk(l) => Some(Emission::Lambert(l.surface(), ng)),

@@ -151,6 +151,14 @@ impl SkyLight {
 
     /// A direction toward the sky and its density.
     fn sample(&self, u: [f32; 2]) -> Option<(Vec3, f32)> {
+        let w = self.draw(u);
+        // As the direction, rounded, will be asked about.
+        let pdf_w = self.pdf_w(w);
+        (pdf_w > 0.0).then_some((w, pdf_w))
+    }
+
+    /// The direction alone.
+    pub(super) fn draw(&self, u: [f32; 2]) -> Vec3 {
         let (j, _, t) = self.rows.sample(u[1]);
         let (i, _, s) = self.columns[j].sample(u[0]);
         let (s, t) = (f64::from(s), f64::from(t));
@@ -159,10 +167,12 @@ impl SkyLight {
             SkyMapping::EqualArea => (j as f64 + t) / self.height as f64,
         };
         let d = sphere_map::direction(self.mapping, [(i as f64 + s) / self.width as f64, v]);
-        let w = self.world_from_sky.vector(d).normalize();
-        // As the direction, rounded, will be asked about.
-        let pdf_w = self.pdf_w(w);
-        (pdf_w > 0.0).then_some((w, pdf_w))
+        self.world_from_sky.vector(d).normalize()
+    }
+
+    /// ∫L dω.
+    pub(super) fn integral(&self) -> Lanes {
+        self.integral
     }
 
     /// ∫L dω times the area of a great disc of the scene's sphere.

@@ -4,10 +4,11 @@
 #![allow(clippy::unwrap_used)]
 
 use color::Lanes;
-use math::{Affine3A, Bounds3, DVec3, Transform, Vec3};
+use math::{Affine3A, Bounds3, DVec3, Frame, Transform, Vec3};
 use nephroid_scene::light::{
-    DirectionalLight, DiskLight, EnvironmentLight, LeSample, Light, LightHit, PointLight, Sides, SkyLight,
-    SphereLight, SpotLight, SunLight, TriangleLight,
+    DirectionalLight, DiskLight, EnvironmentLight, GoniometricShape, IntensityShape, LeSample, Light,
+    LightHit, PointLight, ProfileShape, ShapedLight, Sides, SkyLight, SlideShape, SphereLight, SpotLight,
+    SunLight, TriangleLight,
 };
 use nephroid_scene::target::{Target, Targets};
 use sampling::{Domain, Sampler};
@@ -155,6 +156,54 @@ pub fn patterned(case: Case, name: &'static str) -> Case {
     Case { name, light, geometry: case.geometry }
 }
 
+/// What a light at `position` turns its axes to.
+fn askew() -> Affine3A {
+    Affine3A::from_axis_angle(Vec3::new(0.6, 0.0, 0.8), 0.7)
+}
+
+fn shaped(name: &'static str, shape: IntensityShape) -> Case {
+    let light = ShapedLight::new(Vec3::new(0.1, 1.5, 0.0), shape).unwrap();
+    Case { name, light: Light::Shaped(Box::new(light)), geometry: Geometry::Nothing }
+}
+
+fn frame() -> Frame {
+    let [x, y, z] = [Vec3::X, Vec3::Y, Vec3::Z].map(|v| askew().transform_vector3(v));
+    Frame { x, y, z }
+}
+
+/// A luminaire by a file of the type (1: C, 2: B) and with these angles and intensities.
+fn profile(name: &'static str, kind: u32, frame: Frame, angles: &str, candela: &str) -> Case {
+    let text = format!("IESNA91\nTILT=NONE\n1 -1 1 4 3 {kind} 1 0 0 0 1 1 1\n{angles}\n{candela}");
+    let web = photometry::read(text.as_bytes()).unwrap().web;
+    shaped(name, IntensityShape::Profile(ProfileShape::new(web, frame, Lanes::rgb(0.3, 0.2, 0.1))))
+}
+
+/// Lights with an intensity by direction.
+pub fn shaped_lights() -> Vec<Case> {
+    let pixel = |i: usize| match i {
+        9 => [3.0, 2.5, 2.0],
+        // Alone: where all neighbours are black, draws are, and they count as none.
+        5 => [0.0; 3],
+        _ => [0.3 + 0.1 * (i % 5) as f32, 0.5, 0.2 * (i % 3) as f32],
+    };
+    let goniometric = |mapping, size: [usize; 2]| {
+        let pixels = (0..size[0] * size[1]).map(pixel);
+        let turned = Transform::new(askew()).unwrap();
+        let shape = GoniometricShape::new(mapping, size, pixels, [1.0, 2.0, 0.5], turned).unwrap();
+        IntensityShape::Goniometric(shape)
+    };
+    let down = Frame { x: Vec3::Z, y: Vec3::new(0.6, 0.8, 0.0), z: Vec3::new(0.8, -0.6, 0.0) };
+    let fallen = Frame { x: -Vec3::Y, y: Vec3::X, z: Vec3::Z };
+    let slide = SlideShape::new([4, 3], (0..12).map(pixel).collect(), 1.3, down).unwrap();
+    vec![
+        profile("street lamp", 1, frame(), "0 40 80 120\n0 60 180", "10 30 60 0\n10 60 20 0\n10 5 5 0"),
+        profile("flood light", 2, fallen, "-60 0 20 90\n-90 0 70", "0 3 9 0\n0 30 60 0\n0 0 8 0"),
+        shaped("goniometric", goniometric(SkyMapping::LatLong, [6, 4])),
+        shaped("square goniometric", goniometric(SkyMapping::EqualArea, [5, 5])),
+        shaped("projector", IntensityShape::Slide(slide)),
+    ]
+}
+
 /// One of each, above the targets.
 pub fn cases() -> Vec<Case> {
     let nothing = |name, light| Case { name, light, geometry: Geometry::Nothing };
@@ -179,6 +228,7 @@ pub fn cases() -> Vec<Case> {
         patterned(quad(), "patterned quad"),
         patterned(mesh(), "patterned mesh"),
     ];
+    cases.extend(shaped_lights());
     cases.iter_mut().for_each(|c| c.light.preprocess(scene_bounds()));
     cases
 }

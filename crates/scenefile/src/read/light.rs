@@ -1,6 +1,11 @@
 //! Lights without a surface.
 
-use crate::desc::{ImageSource, Light, LightKind, PointAmount, SkyMapping, SunSky, TransformStep, Triple};
+use std::f32::consts::PI;
+
+use super::amount::{self, Amount};
+use crate::desc::{
+    ImageSource, Light, LightKind, PointAmount, ProfileAmount, SkyMapping, SunSky, TransformStep, Triple,
+};
 use crate::diagnostic::{Diagnostic, Report};
 use crate::document::Node;
 use crate::reader::{Reader, as_table};
@@ -18,13 +23,10 @@ pub(super) fn light(report: &mut Report, what: String, node: &Node) -> Option<Li
             position.zip(amount).map(|(position, amount)| LightKind::Point { position, amount })
         }
         Some("spot") => spot(report, &r),
-        Some("directional") => {
-            let direction = r.point(report, "direction");
-            let irradiance = r.color(report, "irradiance");
-            direction
-                .zip(irradiance)
-                .map(|(direction, irradiance)| LightKind::Directional { direction, irradiance })
-        }
+        Some("profile") => profile(report, &r),
+        Some("goniometric") => goniometric(report, &r),
+        Some("projector") => projector(report, &r),
+        Some("directional") => directional(report, &r),
         Some("sun-sky") => sun_sky(report, &r).map(LightKind::SunSky),
         Some(_) => environment(report, &r),
         None => None,
@@ -36,7 +38,15 @@ pub(super) fn light(report: &mut Report, what: String, node: &Node) -> Option<Li
 
 /// Either `radiance`, or a `file` and what goes with it.
 fn environment(report: &mut Report, r: &Reader<'_>) -> Option<LightKind> {
-    let radiance = r.optional_color(report, "radiance");
+    let amount = amount::amount(report, r, "radiance", &["nits", "lux"]);
+    let radiance = amount.map(|amount| {
+        amount.map(|amount| match amount {
+            Amount::Channels(radiance) => radiance,
+            // What a plane receives of a whole half of the sphere is π times the radiance.
+            Amount::Scaled { key: "lux", value, color } => Amount::channels(value / PI, color),
+            Amount::Scaled { value, color, .. } => Amount::channels(value, color),
+        })
+    });
     let mapping = mapping(report, r);
     let scale = r.color(report, "scale");
     let rotation = r.number(report, "rotation");
@@ -49,7 +59,7 @@ fn environment(report: &mut Report, r: &Reader<'_>) -> Option<LightKind> {
             report.push(Diagnostic::error("conflict", message).at(entry.key_span));
             return None;
         }
-        if r.given("radiance").is_none() {
+        if let Some(None) = radiance {
             let message = format!("missing `radiance` or `file` in {}", r.what);
             report.push(
                 Diagnostic::error("missing-key", message)
@@ -59,10 +69,12 @@ fn environment(report: &mut Report, r: &Reader<'_>) -> Option<LightKind> {
         }
         return radiance?.map(|radiance| LightKind::Environment { radiance });
     };
-    if let Some(other) = r.given("radiance") {
+    if let Some(other) = ["radiance", "nits", "lux"].iter().find_map(|key| r.given(key)) {
         r.conflict(report, other, named);
         return None;
     }
+    // What is wrong with a colour has been said.
+    radiance?;
     let file = r.file(report, "file");
     let degrees = rotation?;
     if degrees != 0.0 {
@@ -96,55 +108,88 @@ pub(super) fn mapping(report: &mut Report, r: &Reader<'_>) -> Option<SkyMapping>
     })
 }
 
-/// Either `intensity` or `power` with `color`.
+/// `intensity`, `candela`, `power` or `lumens`.
 fn amount(report: &mut Report, r: &Reader<'_>) -> Option<PointAmount> {
-    let intensity = r.optional_color(report, "intensity");
-    let power = power(report, r, "intensity");
-    match (intensity?, power?) {
-        (Some(intensity), _) => Some(PointAmount::Intensity(intensity)),
-        (None, Some((watts, color))) => Some(PointAmount::Power { watts, color }),
-        (None, None) => {
+    Some(match amount::amount(report, r, "intensity", &["power", "lumens", "candela"])? {
+        Some(Amount::Channels(intensity)) => PointAmount::Intensity(intensity),
+        Some(Amount::Scaled { key: "candela", value, color }) => {
+            PointAmount::Intensity(Amount::channels(value, color))
+        }
+        Some(Amount::Scaled { key, value, color }) => {
+            PointAmount::Power { watts: Amount::watts(key, value, color), color }
+        }
+        None => {
             let message = format!("missing `intensity` or `power` in {}", r.what);
-            report.push(
-                Diagnostic::error("missing-key", message)
-                    .at(r.span)
-                    .help("`intensity` is W/sr in each channel, `power` the total in W"),
-            );
+            report.push(Diagnostic::error("missing-key", message).at(r.span).help(
+                "`intensity` is W/sr in each channel, `power` the total in W; or give `candela` or `lumens`",
+            ));
+            return None;
+        }
+    })
+}
+
+/// `irradiance` or `lux`.
+fn directional(report: &mut Report, r: &Reader<'_>) -> Option<LightKind> {
+    let direction = r.point(report, "direction");
+    let irradiance = match amount::amount(report, r, "irradiance", &["lux"])? {
+        Some(Amount::Channels(irradiance)) => irradiance,
+        Some(Amount::Scaled { value, color, .. }) => Amount::channels(value, color),
+        None => {
+            r.missing(report, "irradiance");
+            return None;
+        }
+    };
+    Some(LightKind::Directional { direction: direction?, irradiance })
+}
+
+/// As the file says times `scale`, or `power` or `lumens` in all.
+fn profile(report: &mut Report, r: &Reader<'_>) -> Option<LightKind> {
+    let file = r.file(report, "file");
+    let scale = r.number(report, "scale");
+    let color = amount::color(report, r);
+    let [watts, lumens] = ["power", "lumens"].map(|key| r.optional_number(report, key));
+    let mut given = ["scale", "power", "lumens"].into_iter().filter_map(|key| r.given(key));
+    if let (Some(a), Some(b)) = (given.next(), given.next()) {
+        r.conflict(report, a, b);
+        return None;
+    }
+    let color = color?;
+    let amount = match (watts?, lumens?) {
+        (Some(watts), _) => ProfileAmount::Power { watts, color },
+        (None, Some(lumens)) => ProfileAmount::Power { watts: Amount::watts("lumens", lumens, color), color },
+        (None, None) => ProfileAmount::AsFile { scale: scale?, color },
+    };
+    Some(LightKind::Profile { file: file?, transform: super::object::transform(report, r), amount })
+}
+
+/// `intensity` or `candela`, where the picture is 1.
+fn picture_intensity(report: &mut Report, r: &Reader<'_>) -> Option<Triple> {
+    match amount::amount(report, r, "intensity", &["candela"])? {
+        Some(Amount::Channels(intensity)) => Some(intensity),
+        Some(Amount::Scaled { value, color, .. }) => Some(Amount::channels(value, color)),
+        None => {
+            r.missing(report, "intensity");
             None
         }
     }
 }
 
-/// `power` and `color`, and their conflicts with the other way to say how much.
-pub(super) fn power(report: &mut Report, r: &Reader<'_>, other: &str) -> Option<Option<(f32, Triple)>> {
-    let watts = r.optional_number(report, "power");
-    let color = r.optional_color(report, "color");
-    if let (Some(a), Some(b)) = (r.given(other), r.given("power")) {
-        r.conflict(report, a, b);
-        return None;
-    }
-    if let (Some(entry), None) = (r.given("color"), r.given("power")) {
-        let message = format!("`color` without `power` in {}", r.what);
-        let help = match r.given(other) {
-            Some(_) => format!("write the colour into `{other}`"),
-            None if other == "radiance" => "the colour of a surface belongs to its material".to_owned(),
-            None => "give the `power` in W".to_owned(),
-        };
-        report.push(Diagnostic::error("conflict", message).at(entry.key_span).help(help));
-        return None;
-    }
-    let color = color?.unwrap_or([1.0; 3]);
-    if let (Some(entry), [0.0, 0.0, 0.0]) = (r.given("color"), color) {
-        report.push(
-            Diagnostic::error(
-                "out-of-range",
-                format!("{} is black: it cannot be scaled to a power", r.label("color")),
-            )
-            .at(entry.node.span),
-        );
-        return None;
-    }
-    Some(watts?.map(|watts| (watts, color)))
+fn goniometric(report: &mut Report, r: &Reader<'_>) -> Option<LightKind> {
+    let file = r.file(report, "file");
+    let mapping = mapping(report, r);
+    let intensity = picture_intensity(report, r);
+    let transform = super::object::transform(report, r);
+    let source = ImageSource::File(file?);
+    Some(LightKind::Goniometric { source, mapping: mapping?, intensity: intensity?, transform })
+}
+
+fn projector(report: &mut Report, r: &Reader<'_>) -> Option<LightKind> {
+    let file = r.file(report, "file");
+    let fov = r.number(report, "fov");
+    let intensity = picture_intensity(report, r);
+    let transform = super::object::transform(report, r);
+    let source = ImageSource::File(file?);
+    Some(LightKind::Projector { source, fov: fov?, intensity: intensity?, transform })
 }
 
 fn spot(report: &mut Report, r: &Reader<'_>) -> Option<LightKind> {

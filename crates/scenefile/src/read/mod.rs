@@ -1,6 +1,7 @@
 //! From the TOML tree to a description. What is wrong is reported and replaced by a stand-in, so that the rest can
 //! still be checked; after an error the description is not given out.
 
+mod amount;
 mod light;
 mod material;
 mod object;

@@ -1,6 +1,6 @@
 //! Objects, instances and placements.
 
-use super::light::power;
+use super::amount::{self, Amount};
 use super::material;
 use crate::desc::{
     Emission, EmissionAmount, Instance, Normals, Object, Shape, TEAPOT_PARTS, TeapotPart, TransformStep,
@@ -28,7 +28,7 @@ pub(super) fn object(report: &mut Report, what: String, node: &Node) -> Object {
     let flip_normals = r.bool(report, "flip_normals");
     let emission = emission(report, &r);
     let light_group = r.optional_text(report, "light_group").flatten().map(|group| group.value);
-    let wrong_emission = r.given("radiance").or(r.given("power")).is_some() && emission.is_none();
+    let wrong_emission = given_amount(&r).is_some() && emission.is_none();
     Object {
         name: name.flatten().map(|name| name.value),
         shape: Sourced::at(shape, r.given("shape").map_or(node.span, |entry| entry.node.span)),
@@ -41,22 +41,30 @@ pub(super) fn object(report: &mut Report, what: String, node: &Node) -> Object {
     }
 }
 
+/// Where an object is told to shine.
+fn given_amount<'a>(r: &Reader<'a>) -> Option<&'a Entry> {
+    ["radiance", "power", "lumens", "nits"].iter().find_map(|key| r.given(key))
+}
+
 fn emission(report: &mut Report, r: &Reader<'_>) -> Option<Sourced<Emission>> {
-    let radiance = r.optional_color(report, "radiance");
-    let power = power(report, r, "radiance");
+    let amount = amount::amount(report, r, "radiance", &["power", "lumens", "nits"]);
     let texture = r.optional_text(report, "emission_texture");
     let two_sided = r.bool(report, "two_sided_emission");
-    let given = r.given("radiance").or(r.given("power"));
+    let given = given_amount(r);
     for key in ["emission_texture", "two_sided_emission", "light_group"] {
         if let (Some(entry), None) = (r.given(key), given) {
             let message = format!("`{key}` without `radiance` or `power` in {}", r.what);
             report.push(Diagnostic::error("conflict", message).at(entry.key_span));
         }
     }
-    let amount = match (radiance?, power?) {
-        (Some(radiance), _) => EmissionAmount::Radiance(radiance),
-        (None, Some((watts, color))) => EmissionAmount::Power { watts, color },
-        (None, None) => return None,
+    let amount = match amount?? {
+        Amount::Channels(radiance) => EmissionAmount::Radiance(radiance),
+        Amount::Scaled { key: "nits", value, color } => {
+            EmissionAmount::Radiance(Amount::channels(value, color))
+        }
+        Amount::Scaled { key, value, color } => {
+            EmissionAmount::Power { watts: Amount::watts(key, value, color), color }
+        }
     };
     Some(Sourced {
         value: Emission { amount, texture: texture?, two_sided: two_sided? },

@@ -12,12 +12,54 @@ const POSITION: Key = key("position", Point, "scene units", Required, "Where it 
 const POWER: Key =
     key("power", Number(POSITIVE), "W", Absent("intensity counts"), "The total flux, instead of intensity.");
 
-const COLOR: Key = key(
+pub(super) const LUMENS: Key =
+    key("lumens", Number(POSITIVE), "lm", Absent("power counts"), "The luminous flux, instead of power.");
+
+const CANDELA: Key = key(
+    "candela",
+    Number(POSITIVE),
+    "cd",
+    Absent("intensity counts"),
+    "The luminous intensity, instead of intensity.",
+);
+
+pub(super) const COLOR: Key = key(
     "color",
     Color(NON_NEGATIVE),
     "",
     Absent("white"),
-    "With power: the proportions of the channels; their mean has the given power.",
+    "With one number as amount: the proportions of the channels. Their mean has the power, their luminance the rest.",
+);
+
+pub(super) const TEMPERATURE: Key = key(
+    "temperature",
+    Number(closed(1000.0, 40000.0)),
+    "K",
+    Absent("color counts"),
+    "Instead of color: that of a black body.",
+);
+
+const PICTURE_INTENSITY: &[Key] = &[
+    key(
+        "intensity",
+        Color(NON_NEGATIVE),
+        "W/sr",
+        Absent("candela counts"),
+        "The radiant intensity where the picture is 1.",
+    ),
+    CANDELA,
+    COLOR,
+    TEMPERATURE,
+];
+
+const PICTURE: Kind = Kind::File(&["hdr", "exr", "png", "jpg", "jpeg"]);
+
+const PLACED: Key = key(
+    "transform",
+    Kind::Transform,
+    "",
+    Absent("at the origin"),
+    "Places and turns it; scaling does not count.",
 );
 
 const DIRECTION: Key = key("direction", Direction, "", Required, "The way the light travels.");
@@ -65,7 +107,10 @@ pub const LIGHTS: Section = Section {
                         "The radiant intensity.",
                     ),
                     POWER,
+                    LUMENS,
+                    CANDELA,
                     COLOR,
+                    TEMPERATURE,
                 ]],
                 example: "[[lights]]\nkind = \"point\"\nposition = [0, 3, 0]\npower = 100\ncolor = [1, 0.9, 0.7]\n",
             },
@@ -98,9 +143,72 @@ pub const LIGHTS: Section = Section {
                         "The radiant intensity inside.",
                     ),
                     POWER,
+                    LUMENS,
+                    CANDELA,
                     COLOR,
+                    TEMPERATURE,
                 ]],
                 example: "[[lights]]\nkind = \"spot\"\nposition = [0, 3, 0]\ntarget = [0, 0, 0]\ncone_angle = 20\nintensity = 50\n",
+            },
+            Variant {
+                name: "profile",
+                doc: "A point that shines as a photometric file of a luminaire says: down along -y, C = 0 toward +x, C = 90 toward +z.",
+                keys: &[&[
+                    key("file", Kind::File(&["ies", "ldt"]), "", Required, "IES LM-63 or EULUMDAT."),
+                    key(
+                        "scale",
+                        Number(POSITIVE),
+                        "",
+                        Preset::Number(1.0),
+                        "Factor on the intensities of the file.",
+                    ),
+                    Key {
+                        preset: Absent("the file counts"),
+                        doc: "The total flux, instead of what the file says.",
+                        ..POWER
+                    },
+                    Key {
+                        preset: Absent("the file counts"),
+                        doc: "The luminous flux, instead of what the file says.",
+                        ..LUMENS
+                    },
+                    Key { doc: "The proportions of the channels.", ..COLOR },
+                    TEMPERATURE,
+                    PLACED,
+                ]],
+                example: "[[lights]]\nkind = \"profile\"\nfile = \"lamp.ies\"\ntemperature = 3000\ntransform = [{ translate = [0, 2.5, 0] }]\n",
+            },
+            Variant {
+                name: "goniometric",
+                doc: "A point that shines by direction as a picture of the whole sphere has it; its luminance counts.",
+                keys: &[
+                    &[
+                        key("file", PICTURE, "", Required, "The picture."),
+                        Key { doc: "Which directions its points stand for.", ..MAPPING },
+                        PLACED,
+                    ],
+                    PICTURE_INTENSITY,
+                ],
+                example: "[[lights]]\nkind = \"goniometric\"\nfile = \"wood.png\"\ncandela = 200\n",
+            },
+            Variant {
+                name: "projector",
+                doc: "A point that throws a picture along +z, its top at +y, its right at -x.",
+                keys: &[
+                    &[
+                        key("file", PICTURE, "", Required, "The picture."),
+                        key(
+                            "fov",
+                            Number(Range { max: 180.0, ..POSITIVE }),
+                            "degrees",
+                            Preset::Number(40.0),
+                            "The full angle over the picture's smaller side.",
+                        ),
+                        PLACED,
+                    ],
+                    PICTURE_INTENSITY,
+                ],
+                example: "[[lights]]\nkind = \"projector\"\nfile = \"wood.png\"\nfov = 30\nintensity = 5\n",
             },
             Variant {
                 name: "directional",
@@ -111,9 +219,18 @@ pub const LIGHTS: Section = Section {
                         "irradiance",
                         Color(NON_NEGATIVE),
                         "W/m^2",
-                        Required,
+                        Absent("lux counts"),
                         "On a plane that faces the light.",
                     ),
+                    key(
+                        "lux",
+                        Number(POSITIVE),
+                        "lx",
+                        Absent("irradiance counts"),
+                        "The illuminance, instead of irradiance.",
+                    ),
+                    COLOR,
+                    TEMPERATURE,
                 ]],
                 example: "[[lights]]\nkind = \"directional\"\ndirection = [1, -2, 0]\nirradiance = 1000\n",
             },
@@ -128,6 +245,22 @@ pub const LIGHTS: Section = Section {
                         Absent("file counts"),
                         "Its radiance.",
                     ),
+                    key(
+                        "nits",
+                        Number(POSITIVE),
+                        "cd/m^2",
+                        Absent("radiance counts"),
+                        "Its luminance, instead of radiance.",
+                    ),
+                    key(
+                        "lux",
+                        Number(POSITIVE),
+                        "lx",
+                        Absent("radiance counts"),
+                        "What it gives a plane that sees half of it, instead of radiance.",
+                    ),
+                    COLOR,
+                    TEMPERATURE,
                     key(
                         "file",
                         Kind::File(&["hdr", "exr", "png", "jpg", "jpeg"]),
