@@ -15,12 +15,15 @@ use crate::light::{GoniometricShape, IntensityShape, ProfileShape, ShapedLight, 
 /// Greatest photometric file that is read, bytes: such a file has some thousand numbers.
 const MOST_BYTES: u64 = 64 << 20;
 
-/// A point light whose intensity is given by direction, where it is, and what should be told of it. `None`: `kind` is another one.
+/// A light, where it is, and what should be told of it.
+type Shaped = (Light, Vec3, Vec<Diagnostic>);
+
+/// A point light whose intensity is given by direction. `None`: `kind` is another one.
 pub(super) fn light(
     desc: &SceneDesc,
     kind: &LightKind,
     span: Option<Span>,
-) -> Option<Result<(Light, Vec3, Vec<Diagnostic>), Diagnostic>> {
+) -> Option<Result<Shaped, Diagnostic>> {
     let shape = match kind {
         LightKind::Profile { file, transform, amount } => {
             let name = file.display().to_string();
