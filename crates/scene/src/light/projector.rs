@@ -64,13 +64,13 @@ impl SlideShape {
         (total > 0.0 && total.is_finite() && half.is_finite()).then_some(slide)
     }
 
-    /// Of a pixel, by the middles of its quarters.
+    /// Of a pixel: the intensities in the middles of its quarters times their solid angles.
     fn flux_of(&self, i: usize, j: usize) -> [f64; 3] {
         let mut sum = [0f64; 3];
         for quarter in 0..4 {
             let at = |k: usize, q: usize| k as f32 + 0.25 + 0.5 * q as f32;
             let place = Vec2::new(at(i, quarter % 2), at(j, quarter / 2));
-            let solid_angle = 0.25 * self.solid_angle(place);
+            let solid_angle = self.solid_angle_of_quarter(place);
             let pixel = self.lookup(place);
             sum.iter_mut().zip(pixel).for_each(|(s, x)| *s += f64::from(x) * solid_angle);
         }
@@ -84,6 +84,17 @@ impl SlideShape {
     /// At a place in pixels, of the plane at distance 1.
     fn at_one(&self, place: Vec2) -> Vec2 {
         self.half - 2.0 * self.half * place / self.size()
+    }
+
+    /// Of the square of half a pixel's side about a place.
+    fn solid_angle_of_quarter(&self, place: Vec2) -> f64 {
+        let corner = |dx: f32, dy: f32| {
+            let [x, y] = self.at_one(place + Vec2::new(dx, dy)).to_array().map(f64::from);
+            // Of the rectangle from the axis to (x, y) at distance 1.
+            (x * y / (1.0 + x * x + y * y).sqrt()).atan()
+        };
+        let q = 0.25;
+        (corner(q, q) - corner(-q, q) - corner(q, -q) + corner(-q, -q)).abs()
     }
 
     /// Solid angle over area, in pixels, at a place: a pixel's area at distance 1 times cos³.
