@@ -2,6 +2,9 @@ use color::Lanes;
 use math::{Frame, Vec2, Vec3};
 use sampling::Discrete;
 
+/// Most squares over which a picture's flux is summed, in quarters of pixels, if it has fewer of these.
+const MOST_PARTS: usize = 1 << 16;
+
 /// Intensity as a picture has it that a point throws on what lies before it, bilinear between the middles of its pixels.
 ///
 /// Directions are drawn by a density that is constant in the picture over each pixel, in proportion to its luminance times its
@@ -47,10 +50,12 @@ impl SlideShape {
             flux: Lanes::ZERO,
             peak,
         };
+        // The coarser the picture, the more it and the solid angle vary over a pixel.
+        let parts = 2 * (MOST_PARTS / (width * height)).isqrt().clamp(1, 8);
         let mut flux = [0f64; 3];
         for j in 0..height {
             let row = (0..width).map(|i| {
-                let of_pixel = slide.flux_of(i, j);
+                let of_pixel = slide.flux_of(i, j, parts);
                 flux.iter_mut().zip(of_pixel).for_each(|(s, x)| *s += x);
                 color::luminance_f64(of_pixel)
             });
@@ -64,13 +69,13 @@ impl SlideShape {
         (total > 0.0 && total.is_finite() && half.is_finite()).then_some(slide)
     }
 
-    /// Of a pixel: the intensities in the middles of its quarters times their solid angles.
-    fn flux_of(&self, i: usize, j: usize) -> [f64; 3] {
+    /// Of a pixel: the intensities in the middles of `parts`² squares of it times their solid angles.
+    fn flux_of(&self, i: usize, j: usize, parts: usize) -> [f64; 3] {
         let mut sum = [0f64; 3];
-        for quarter in 0..4 {
-            let at = |k: usize, q: usize| k as f32 + 0.25 + 0.5 * q as f32;
-            let place = Vec2::new(at(i, quarter % 2), at(j, quarter / 2));
-            let solid_angle = self.solid_angle_of_quarter(place);
+        for part in 0..parts * parts {
+            let at = |k: usize, part: usize| k as f32 + (part as f32 + 0.5) / parts as f32;
+            let place = Vec2::new(at(i, part % parts), at(j, part / parts));
+            let solid_angle = self.solid_angle_about(place, 0.5 / parts as f32);
             let pixel = self.lookup(place);
             sum.iter_mut().zip(pixel).for_each(|(s, x)| *s += f64::from(x) * solid_angle);
         }
@@ -86,14 +91,13 @@ impl SlideShape {
         self.half - 2.0 * self.half * place / self.size()
     }
 
-    /// Of the square of half a pixel's side about a place.
-    fn solid_angle_of_quarter(&self, place: Vec2) -> f64 {
+    /// Of the square about a place that reaches `q` pixels to either side.
+    fn solid_angle_about(&self, place: Vec2, q: f32) -> f64 {
         let corner = |dx: f32, dy: f32| {
             let [x, y] = self.at_one(place + Vec2::new(dx, dy)).to_array().map(f64::from);
             // Of the rectangle from the axis to (x, y) at distance 1.
             (x * y / (1.0 + x * x + y * y).sqrt()).atan()
         };
-        let q = 0.25;
         (corner(q, q) - corner(-q, q) - corner(q, -q) + corner(-q, -q)).abs()
     }
 
