@@ -84,7 +84,7 @@ impl Glass {
         let own = self.reflectance * fresnel;
         match (self.layers, self.side, refracted_cosine(c, self.eta)) {
             (Some(layers), Side::Back, Some(outside)) => {
-                own + (Lanes::ONE - fresnel) * (1.0 - layers.passes(outside))
+                own + (Lanes::ONE - fresnel) * (1.0 - layers.above(outside).passes())
             }
             _ => own,
         }

@@ -14,7 +14,7 @@ pub(crate) const COAT_ETA: f32 = 1.5;
 
 /// The layers of a principled surface above metal and dielectric: sheen over clear coat. What is below a layer that returns E(w) is
 /// multiplied by min(1 − E(o), 1 − E(i)), which is reciprocal and never gains energy; what that loses, where `wi` is the more
-/// grazing of the two, is tabulated ([`Self::kept`]).
+/// grazing of the two, is tabulated ([`Layers::kept`]).
 #[derive(Clone, Copy)]
 pub(crate) struct Layers {
     /// Share of the surface under the coat.
@@ -40,7 +40,7 @@ impl Layers {
     }
 
     /// What the coat alone returns.
-    pub fn coat_at(&self, mu: f32) -> f32 {
+    fn coat_at(&self, mu: f32) -> f32 {
         if self.coat == 0.0 {
             return 0.0;
         }
@@ -48,49 +48,67 @@ impl Layers {
     }
 
     /// What the sheen alone returns, in its greatest lane.
-    pub fn sheen_at(&self, mu: f32) -> f32 {
+    fn sheen_at(&self, mu: f32) -> f32 {
         if self.sheen == 0.0 { 0.0 } else { self.sheen * self.fibres.albedo(mu) }
     }
 
-    /// What neither returns.
-    pub fn passes(&self, mu: f32) -> f32 {
-        (1.0 - self.coat_at(mu)) * (1.0 - self.sheen_at(mu))
+    /// What each returns alone, for a direction of cosine `mu`.
+    pub fn above(&self, mu: f32) -> Above {
+        Above { coat: self.coat_at(mu), sheen: self.sheen_at(mu) }
     }
 
-    /// Factor of what is below both; directions of cosines `o` and `i`.
-    pub fn cover(&self, o: f32, i: f32) -> f32 {
-        (1.0 - self.coat_at(o)).min(1.0 - self.coat_at(i)) * self.cover_coat(o, i)
-    }
-
-    /// Factor of what is below the sheen.
-    pub fn cover_coat(&self, o: f32, i: f32) -> f32 {
-        if self.sheen == 0.0 { 1.0 } else { (1.0 - self.sheen_at(o)).min(1.0 - self.sheen_at(i)) }
-    }
-
-    /// Share of a lobe's light that leaves through both layers, light that comes along `w` being met by [`Self::cover`].
-    pub fn kept(&self, under: Under, w: Vec3, alpha: [f32; 2]) -> f32 {
+    /// Share of a lobe's light that leaves through both layers, light that comes along `w` being met by [`Above::cover`].
+    /// `above` is that of `w`.
+    pub fn kept(&self, under: Under, w: Vec3, alpha: [f32; 2], above: Above) -> f32 {
         let mut kept = 1.0;
         if self.coat > 0.0 {
             let law = LayerLoss { layer: Layer::Coat(self.coat_alpha), under };
-            kept = (1.0 - self.coat_at(w.z.abs()) - self.coat * loss(law, w, alpha)).max(0.0);
+            kept = (1.0 - above.coat - self.coat * loss(law, w, alpha)).max(0.0);
         }
-        kept * self.kept_by_sheen(under, w, alpha)
+        kept * self.kept_by_sheen(under, w, alpha, above)
     }
 
-    fn kept_by_sheen(&self, under: Under, w: Vec3, alpha: [f32; 2]) -> f32 {
+    fn kept_by_sheen(&self, under: Under, w: Vec3, alpha: [f32; 2], above: Above) -> f32 {
         if self.sheen == 0.0 {
             return 1.0;
         }
         let law = LayerLoss { layer: Layer::Sheen(self.fibres), under };
-        (1.0 - self.sheen_at(w.z.abs()) - self.sheen * loss(law, w, alpha)).max(0.0)
+        (1.0 - above.sheen - self.sheen * loss(law, w, alpha)).max(0.0)
     }
 
     /// What sheen and coat return together, the coat through the sheen.
-    pub fn returned(&self, w: Vec3) -> f32 {
-        let (mu, alpha) = (w.z.abs(), [self.coat_alpha; 2]);
-        let coat = self.coat_at(mu);
-        let coat = if coat == 0.0 { 0.0 } else { coat * self.kept_by_sheen(Under::Gloss, w, alpha) };
-        self.sheen_at(mu) + coat
+    pub fn returned(&self, w: Vec3, above: Above) -> f32 {
+        if above.coat == 0.0 {
+            return above.sheen;
+        }
+        above.sheen + above.coat * self.kept_by_sheen(Under::Gloss, w, [self.coat_alpha; 2], above)
+    }
+}
+
+/// What coat and sheen return, each alone, for one direction.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Above {
+    pub coat: f32,
+    pub sheen: f32,
+}
+
+impl Above {
+    /// What neither returns.
+    #[inline]
+    pub fn passes(self) -> f32 {
+        (1.0 - self.coat) * (1.0 - self.sheen)
+    }
+
+    /// Factor of what is below both, for a pair of directions.
+    #[inline]
+    pub fn cover(self, other: Self) -> f32 {
+        (1.0 - self.coat.max(other.coat)) * self.cover_coat(other)
+    }
+
+    /// Factor of what is below the sheen.
+    #[inline]
+    pub fn cover_coat(self, other: Self) -> f32 {
+        1.0 - self.sheen.max(other.sheen)
     }
 }
 

@@ -9,7 +9,7 @@ use crate::diffuse;
 use crate::facets::{Facets, Micro, isotropic};
 use crate::ggx::ALPHA_MIN;
 use crate::glass::{self, Glass, Side, is_matched};
-use crate::layers::{COAT_ETA, Layers, Under};
+use crate::layers::{Above, COAT_ETA, Layers, Under};
 use crate::lobes::{Lobes, TransportMode};
 use crate::principled::{Interior, Principled, PrincipledParameters};
 use crate::reflectance::Reflectance;
@@ -34,6 +34,7 @@ pub(crate) struct Slab {
     clear: Clear,
     coat: Rough,
     layers: Layers,
+    parts: Parts,
     /// Means of D and P.
     missing: Missing,
 }
@@ -109,28 +110,60 @@ fn table_eta(eta: f32) -> f32 {
     eta.max(1.0 / eta).clamp(1.0, ETA_MAX)
 }
 
-/// D(w).
-fn left_to_base(p: &PrincipledParameters, layers: &Layers, w: Vec3) -> f32 {
-    let gloss = (p.specular_color * p.specular).max() * coat_albedo(w, p.alpha, table_eta(p.eta));
-    if layers.none() {
-        return 1.0 - gloss;
-    }
-    (1.0 - layers.returned(w) - gloss * layers.kept(Under::Gloss, w, p.alpha)).max(0.0)
+/// What a slab needs to know of one direction.
+#[derive(Clone, Copy, Default)]
+struct Along {
+    above: Above,
+    /// What the dielectric over the diffuse base reflects.
+    gloss: f32,
+    /// D, where there is a base.
+    base: f32,
+    /// P, where there is metal or sheet.
+    kept_back: f32,
 }
 
-/// P(w).
-fn kept_back(p: &PrincipledParameters, layers: &Layers, w: Vec3) -> f32 {
-    (1.0 - layers.returned(w) - layers.kept(Under::White, w, p.alpha)).max(0.0)
+/// The parts of a slab of which [`Along`] tells.
+#[derive(Clone, Copy)]
+struct Parts {
+    base: bool,
+    kept_back: bool,
+}
+
+impl Parts {
+    fn of(p: &PrincipledParameters, layers: &Layers) -> Self {
+        let sheet = p.transmission > 0.0 && p.interior == Interior::Thin;
+        Self {
+            base: p.metallic < 1.0 && p.transmission < 1.0,
+            kept_back: !layers.none() && (p.metallic > 0.0 || sheet),
+        }
+    }
+
+    fn along(self, p: &PrincipledParameters, layers: &Layers, w: Vec3) -> Along {
+        let gloss = if self.base {
+            (p.specular_color * p.specular).max() * coat_albedo(w, p.alpha, table_eta(p.eta))
+        } else {
+            0.0
+        };
+        if layers.none() {
+            return Along { gloss, base: 1.0 - gloss, ..Along::default() };
+        }
+        let above = layers.above(w.z.abs());
+        let left = 1.0 - layers.returned(w, above);
+        let below = |under| layers.kept(under, w, p.alpha, above);
+        let base = if self.base { (left - gloss * below(Under::Gloss)).max(0.0) } else { 0.0 };
+        let kept_back = if self.kept_back { (left - below(Under::White)).max(0.0) } else { 0.0 };
+        Along { above, gloss, base, kept_back }
+    }
 }
 
 /// [`Missing`] of a slab, never 0, by eight-point Gauss–Legendre quadrature in √μ.
 pub(crate) fn missing(p: &PrincipledParameters) -> Missing {
     let p = &PrincipledParameters { alpha: p.alpha.map(|a| a.max(ALPHA_MIN)), ..*p };
     let layers = layers(p);
-    let has_base = p.metallic < 1.0 && p.transmission < 1.0;
+    let parts = Parts::of(p, &layers);
     if layers.none() {
         let tint = (p.specular_color * p.specular).max();
-        let gloss = if has_base { tint * coat_albedo_mean(p.alpha, table_eta(p.eta)) } else { 0.0 };
+        let gloss = if parts.base { tint * coat_albedo_mean(p.alpha, table_eta(p.eta)) } else { 0.0 };
         return Missing { base: 1.0 - gloss, metal: 0.0 };
     }
     const NODES: [(f32, f32); 8] = [
@@ -144,7 +177,6 @@ pub(crate) fn missing(p: &PrincipledParameters) -> Missing {
         (0.980_144_9, 0.050_614_27),
     ];
     let azimuths = if p.alpha[0] == p.alpha[1] { 1 } else { 3 };
-    let kept_lobe = p.metallic > 0.0 || (p.transmission > 0.0 && p.interior == Interior::Thin);
     let mut mean = Missing { base: 0.0, metal: 0.0 };
     for (t, weight) in NODES {
         for i in 0..azimuths {
@@ -152,15 +184,12 @@ pub(crate) fn missing(p: &PrincipledParameters) -> Missing {
             // μ = t²: dense towards grazing.
             let w = math::spherical_direction(t * t, phi);
             let weight = 4.0 * t * t * t * weight / azimuths as f32;
-            if has_base {
-                mean.base += weight * left_to_base(p, &layers, w);
-            }
-            if kept_lobe {
-                mean.metal += weight * kept_back(p, &layers, w);
-            }
+            let along = parts.along(p, &layers, w);
+            mean.base += weight * along.base;
+            mean.metal += weight * along.kept_back;
         }
     }
-    Missing { base: mean.base.max(1e-6), metal: if kept_lobe { mean.metal.max(1e-6) } else { 0.0 } }
+    Missing { base: mean.base.max(1e-6), metal: mean.metal.max(1e-6) }
 }
 
 impl Slab {
@@ -202,6 +231,7 @@ impl Slab {
             gloss: single(p.alpha, Reflectance::dielectric(eta).under(p.film, p.film_weight)),
             clear,
             coat: single([p.clearcoat_alpha; 2], Reflectance::dielectric(COAT_ETA)),
+            parts: Parts::of(&p, &layers),
             layers,
             missing: packed.missing(),
             p,
@@ -220,13 +250,18 @@ impl Slab {
         (d * self.p.transmission, d * (1.0 - self.p.transmission))
     }
 
-    /// What the dielectric over the diffuse base reflects.
-    fn gloss_albedo(&self, w: Vec3) -> f32 {
-        self.tint().max() * coat_albedo(w, self.p.alpha, self.eta)
+    fn along(&self, w: Vec3) -> Along {
+        if self.outer == Side::Front {
+            self.parts.along(&self.p, &self.layers, w)
+        } else {
+            // From inside only what leaves is met by layers.
+            let above = if self.layers.none() { Above::default() } else { self.layers.above(w.z.abs()) };
+            Along { above, ..Along::default() }
+        }
     }
 
     /// Factor of what lies below sheen and coat.
-    fn covered(&self, wo: Vec3, wi: Vec3) -> f32 {
+    fn covered(&self, wo: Vec3, wi: Vec3, o: Above, i: Above) -> f32 {
         if self.layers.none() {
             return 1.0;
         }
@@ -234,21 +269,11 @@ impl Slab {
         let sided = matches!(self.clear, Clear::Solid(_));
         let seen = |w: Vec3| !sided || (w.z > 0.0) == (self.outer == Side::Front);
         match (seen(wo), seen(wi)) {
-            (true, true) => self.layers.cover(wo.z.abs(), wi.z.abs()),
-            (true, false) => self.layers.passes(wo.z.abs()),
-            (false, true) => self.layers.passes(wi.z.abs()),
+            (true, true) => o.cover(i),
+            (true, false) => o.passes(),
+            (false, true) => i.passes(),
             (false, false) => 1.0,
         }
-    }
-
-    /// D(w).
-    fn base(&self, w: Vec3) -> f32 {
-        left_to_base(&self.p, &self.layers, w)
-    }
-
-    /// P(w); 0 where there is neither metal nor sheet.
-    fn kept_back(&self, w: Vec3) -> f32 {
-        if self.missing.metal == 0.0 { 0.0 } else { kept_back(&self.p, &self.layers, w) }
     }
 
     /// Colour of the lobe beside those of metal and sheet.
@@ -258,6 +283,12 @@ impl Slab {
     }
 
     pub fn eval(&self, wo: Vec3, wi: Vec3, allowed: Lobes, mode: TransportMode) -> Lanes {
+        self.eval_from(&self.along(wo), wo, wi, allowed, mode)
+    }
+
+    /// [`Self::eval`], `o` being [`Self::along`] of `wo`.
+    fn eval_from(&self, o: &Along, wo: Vec3, wi: Vec3, allowed: Lobes, mode: TransportMode) -> Lanes {
+        let i = self.along(wi);
         let (clear, rest) = self.dielectric();
         let reflects = wi.z > 0.0;
         let outer = self.outer == Side::Front;
@@ -280,20 +311,20 @@ impl Slab {
             (translucent::TRANSMISSION, self.p.diffuse_transmission)
         };
         if !f.is_zero() {
-            f *= self.covered(wo, wi);
+            f *= self.covered(wo, wi, o.above, i.above);
         }
         if outer && rest * share > 0.0 && allowed.contains(lobe) {
-            let pair = self.base(wo) * self.base(wi) * FRAC_1_PI / self.missing.base;
+            let pair = o.base * i.base * FRAC_1_PI / self.missing.base;
             f += self.p.base_color * (rest * share * pair);
         }
         if outer && reflects && !self.layers.none() {
             if allowed.contains(conductor::GLOSSY) {
                 if self.p.clearcoat > 0.0 {
-                    let cover = self.layers.cover_coat(wo.z, wi.z);
+                    let cover = o.above.cover_coat(i.above);
                     f += self.coat.eval(wo, wi) * (self.p.clearcoat * cover);
                 }
-                if self.missing.metal > 0.0 {
-                    let pair = self.kept_back(wo) * self.kept_back(wi) * FRAC_1_PI / self.missing.metal;
+                if self.parts.kept_back {
+                    let pair = o.kept_back * i.kept_back * FRAC_1_PI / self.missing.metal;
                     f += self.further() * pair;
                 }
             }
@@ -305,7 +336,7 @@ impl Slab {
     }
 
     /// About the energy of each part.
-    fn shares(&self, wo: Vec3, allowed: Lobes) -> Shares {
+    fn shares(&self, o: &Along, wo: Vec3, allowed: Lobes) -> Shares {
         let mut s = Shares::default();
         let (clear, rest) = self.dielectric();
         if allowed.contains(glass::REFLECTION) || allowed.contains(glass::TRANSMISSION) {
@@ -314,17 +345,16 @@ impl Slab {
         if self.outer == Side::Back {
             return s;
         }
-        let e = if rest > 0.0 { self.gloss_albedo(wo) } else { 0.0 };
-        let base = if rest > 0.0 { rest * self.base(wo) * self.p.base_color.max() } else { 0.0 };
+        let base = rest * o.base * self.p.base_color.max();
         if allowed.contains(conductor::GLOSSY) {
-            s.coat = self.layers.coat_at(wo.z);
-            s.further = self.kept_back(wo) * self.further().max();
+            s.coat = o.above.coat;
+            s.further = o.kept_back * self.further().max();
             s.metal = self.p.metallic * self.metal.reflectance.at(wo.z).max();
-            s.gloss = rest * e;
+            s.gloss = rest * o.gloss;
         }
         if allowed.contains(diffuse::LOBES) {
             s.reflected = base * (1.0 - self.p.diffuse_transmission);
-            s.sheen = self.layers.sheen_at(wo.z);
+            s.sheen = o.above.sheen;
         }
         if allowed.contains(translucent::TRANSMISSION) {
             s.transmitted = base * self.p.diffuse_transmission;
@@ -333,7 +363,11 @@ impl Slab {
     }
 
     pub fn pdf_w(&self, wo: Vec3, wi: Vec3, allowed: Lobes) -> f32 {
-        let s = self.shares(wo, allowed);
+        self.pdf_from(&self.shares(&self.along(wo), wo, allowed), wo, wi, allowed)
+    }
+
+    /// [`Self::pdf_w`] by the shares of `wo`.
+    fn pdf_from(&self, s: &Shares, wo: Vec3, wi: Vec3, allowed: Lobes) -> f32 {
         let sum = s.sum();
         if sum <= 0.0 {
             return 0.0;
@@ -367,7 +401,8 @@ impl Slab {
         u: [f32; 2],
         mode: TransportMode,
     ) -> Option<BsdfSample> {
-        let s = self.shares(wo, allowed);
+        let o = self.along(wo);
+        let s = self.shares(&o, wo, allowed);
         let mut x = u_lobe * s.sum();
         // Whether the part of this share is the one; if so, x becomes its own number in [0, 1).
         let mut chosen = |share: f32| {
@@ -407,7 +442,8 @@ impl Slab {
             Clear::Solid(g) if wi.z < 0.0 => g.eta,
             _ => 1.0,
         };
-        BsdfSample::of(wi, self.eval(wo, wi, allowed, mode), self.pdf_w(wo, wi, allowed), lobes, eta)
+        let f = self.eval_from(&o, wo, wi, allowed, mode);
+        BsdfSample::of(wi, f, self.pdf_from(&s, wo, wi, allowed), lobes, eta)
     }
 
     /// About the directional albedo: layers by albedo scaling, Fresnel taken at the mirror's angle.
@@ -422,12 +458,12 @@ impl Slab {
         if self.outer == Side::Back {
             return through;
         }
+        let o = self.along(wo);
         let gloss = self.tint() * coat_albedo(wo, self.p.alpha, self.eta);
         let below = through + self.metal.reflectance.at(cos_o) * self.p.metallic + gloss * rest;
-        let coat = Lanes::splat(self.layers.coat_at(cos_o)) + below * (1.0 - self.layers.coat_at(cos_o));
+        let coat = Lanes::splat(o.above.coat) + below * (1.0 - o.above.coat);
         let sheen = self.p.sheen_color * self.layers.fibres.albedo(cos_o);
-        let base = if rest > 0.0 { self.p.base_color * (rest * self.base(wo)) } else { Lanes::ZERO };
-        let further = self.further() * self.kept_back(wo);
-        sheen + coat * (1.0 - self.layers.sheen_at(cos_o)) + base + further
+        let base = self.p.base_color * (rest * o.base);
+        sheen + coat * (1.0 - o.above.sheen) + base + self.further() * o.kept_back
     }
 }

@@ -355,3 +355,41 @@ fn shading_correction() {
     assert!((b.shading_correction(wo, wi) * ratio(wi) - ratio(wo)).abs() < 1e-6);
     assert_eq!(surface(DIFFUSE, 0.0).shading_correction(wo, wi), 1.0);
 }
+
+/// Samples of facets weigh little whatever the roughness and the angle: no fireflies are born in a BSDF (normals drawn by D·cosθ
+/// would weigh up to G(o)/cosθ: Walter et al. 2007, §5.3).
+#[test]
+fn weights_are_bounded() {
+    let mut s = Sampler::new(9, 0, Domain::Other, 0);
+    let one = Lanes::ONE;
+    let mut greatest = |kind: BsdfKind| {
+        let b = surface(kind, 0.0);
+        let mut most = 0f32;
+        for i in 0..4000 {
+            let cos = [1.0, 0.5, 0.1, 0.02, -0.8, -0.3, -0.05][i % 7];
+            let wo = direction(&b, cos, 6.0 * s.next_1d());
+            let drawn = b.sample(wo, s.next_1d(), s.next_2d(), TransportMode::Importance);
+            most = most.max(drawn.map_or(0.0, |d| d.weight.0.x));
+        }
+        most
+    };
+    for alpha in [[1e-3; 2], [0.05; 2], [0.3; 2], [1.0; 2], [0.9, 0.1], [0.02, 0.3]] {
+        for (facets, bound) in [
+            (Facets::Conserving, 2.5),
+            (Facets::SingleBounce, 1.001),
+            (Facets::Separable, 1.001),
+            (Facets::Beckmann, 2.7),
+        ] {
+            let film = Film::NONE;
+            let (n, k) = (Lanes::ZERO, Lanes::splat(5.0));
+            let metal = BsdfKind::RoughConductor { n, k, reflectance: one, alpha, facets, film };
+            let eta = 1.5;
+            let glass =
+                BsdfKind::RoughDielectric { eta, alpha, reflectance: one, transmittance: one, facets, film };
+            for kind in [metal, glass] {
+                let most = greatest(kind);
+                assert!(most < bound, "{kind:?}: {most}");
+            }
+        }
+    }
+}

@@ -14,7 +14,7 @@ use testkit::{Settings, significance};
 const GEOMETRY: [(f32, f32); 2] = [(0.75, 0.0), (-0.2, 25.0)];
 
 /// Tests in this file: kinds × geometry × about three p-values.
-const TESTS: usize = 40 * 2 * 3;
+const TESTS: usize = 52 * 2 * 3;
 
 fn check_all(kinds: &[BsdfKind], allowed: Lobes) {
     let level = significance(0.01, TESTS);
@@ -121,5 +121,25 @@ fn planted_errors_fail() {
             |wi| f64::from(b.pdf_w(wo, wi, common::RADIANCE)),
         );
         assert!(!t.failures(level).is_empty(), "{right:?} {t:?}");
+    }
+}
+
+/// Both roughnesses, anisotropy and grazing angles.
+#[test]
+fn anisotropic_and_grazing() {
+    let level = significance(0.01, TESTS);
+    let settings = |seed| Settings { seed, draws: 200_000, rounding: 0.02, ..Settings::default() };
+    let mut seed = 1000;
+    for alpha in [[0.9, 0.1], [0.02, 0.3]] {
+        for facets in [Facets::Conserving, Facets::Separable, Facets::Beckmann] {
+            for kind in [rough_conductor(alpha, facets, Film::NONE), glass(1.5, alpha, facets, Film::NONE)] {
+                for cos_theta in [0.9, 0.05] {
+                    let b = surface(kind, 0.0);
+                    seed += 1;
+                    let report = check(&b, direction(&b, cos_theta, 0.4), Lobes::ALL, &settings(seed));
+                    assert_eq!(report.failures(level), [""; 0], "{kind:?}, cos {cos_theta}: {report:?}");
+                }
+            }
+        }
     }
 }
