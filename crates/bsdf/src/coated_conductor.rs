@@ -5,10 +5,8 @@ use crate::bsdf::{BsdfSample, DeltaLobe};
 use crate::coat_albedo::{coat_albedo, coat_albedo_mean};
 use crate::coat_loss::{coat_loss, coat_loss_mean, inside, outside};
 use crate::conductor::GLOSSY;
-use crate::cosine::cosine_hemisphere;
-use crate::diffuse;
 use crate::facet_loss::{facet_loss, facet_loss_mean};
-use crate::facets::{Facets, Micro, half_reflected, is_smooth};
+use crate::facets::{Facets, Micro, further_pdf_w, half_reflected, is_smooth, isotropic, sample_further};
 use crate::fresnel::{fresnel_dielectric, fresnel_dielectric_mean};
 use crate::glass_loss::{glass_loss, glass_loss_mean};
 use crate::lobes::Lobes;
@@ -218,7 +216,10 @@ impl CoatedConductor {
         if sum <= 0.0 {
             return 0.0;
         }
-        let mut pdf = further * diffuse::pdf_w(wi.z);
+        let mut pdf = 0.0;
+        if further > 0.0 {
+            pdf += further * further_pdf_w(wi.z, isotropic(self.alpha));
+        }
         if coat > 0.0 {
             let micro = Micro::new(Facets::SingleBounce, [self.coat_alpha; 2]);
             pdf += coat * micro.pdf_reflected(wo, half_reflected(wo, wi));
@@ -255,7 +256,7 @@ impl CoatedConductor {
             let i = self.micro().sample_reflected(inside(wo, self.eta), u);
             outside(i, self.eta)?.normalize()
         } else {
-            cosine_hemisphere(u)
+            sample_further(u, isotropic(self.alpha))
         };
         if wi.z <= 0.0 {
             return None;

@@ -6,7 +6,7 @@ use crate::coat_albedo::{ETA_MAX, coat_albedo, coat_albedo_mean};
 use crate::conductor::{self, Rough};
 use crate::cosine::cosine_hemisphere;
 use crate::diffuse;
-use crate::facets::{Facets, Micro, isotropic};
+use crate::facets::{Facets, Micro, further_pdf_w, isotropic, sample_further};
 use crate::ggx::ALPHA_MIN;
 use crate::glass::{self, Glass, Side, is_matched};
 use crate::layers::{Above, COAT_ETA, Layers, Under};
@@ -384,7 +384,10 @@ impl Slab {
         if wi.z < 0.0 {
             return (pdf + s.transmitted * diffuse::pdf_w(-wi.z)) / sum;
         }
-        pdf += (s.reflected + s.further) * diffuse::pdf_w(wi.z) + s.sheen * sheen::PDF_W;
+        pdf += s.reflected * diffuse::pdf_w(wi.z) + s.sheen * sheen::PDF_W;
+        if s.further > 0.0 {
+            pdf += s.further * further_pdf_w(wi.z, self.metal.alpha);
+        }
         for (share, part) in [(s.coat, &self.coat), (s.metal, &self.metal), (s.gloss, &self.gloss)] {
             if share > 0.0 {
                 pdf += share * part.pdf_w(wo, wi);
@@ -427,7 +430,7 @@ impl Slab {
         } else if let Some(v) = chosen(s.gloss) {
             (self.gloss.direction(wo, v, u)?, conductor::GLOSSY)
         } else if chosen(s.further).is_some() {
-            (cosine_hemisphere(u), conductor::GLOSSY)
+            (sample_further(u, self.metal.alpha), conductor::GLOSSY)
         } else if chosen(s.reflected).is_some() {
             (cosine_hemisphere(u), diffuse::LOBES)
         } else if chosen(s.transmitted).is_some() {

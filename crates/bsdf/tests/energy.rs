@@ -125,7 +125,7 @@ fn white_coated_metals() {
                     let (n, k, depth) = (Lanes::ZERO, Lanes::splat(5.0), 0.0);
                     let facets = Facets::Conserving;
                     let kind = BsdfKind::CoatedConductor { n, k, alpha, eta, coat_alpha, depth, facets };
-                    returns_all(kind, &COSINES, 0.02);
+                    returns_all(kind, &COSINES, 0.015);
                 }
             }
         }
@@ -162,9 +162,9 @@ fn white_principled() {
             (PrincipledParameters { transmission: 1.0, interior: Interior::Thin, ..p }, 0.01),
             (PrincipledParameters { diffuse_transmission: 0.5, ..p }, 0.01),
             (clearcoat, 0.01),
-            (PrincipledParameters { metallic: 1.0, ..clearcoat }, 0.02),
+            (PrincipledParameters { metallic: 1.0, ..clearcoat }, 0.013),
             (sheen, 0.01),
-            (PrincipledParameters { metallic: 0.5, ..sheen }, 0.02),
+            (PrincipledParameters { metallic: 0.5, ..sheen }, 0.015),
             (PrincipledParameters { clearcoat: 0.7, ..sheen }, 0.02),
         ] {
             returns_all(principled(p), &COSINES, bound);
