@@ -156,7 +156,7 @@ fn radiance(w: [f64; 3]) -> [f64; 3] {
         let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
         t * t * (3.0 - 2.0 * t)
     };
-    let (ground, horizon, zenith) = ([0.24, 0.23, 0.22], [0.50, 0.50, 0.50], [0.66, 0.70, 0.76]);
+    let (ground, horizon, zenith) = ([0.16, 0.15, 0.14], [0.30, 0.30, 0.30], [0.40, 0.43, 0.47]);
     let (a, b, t) = if w[1] < 0.0 {
         (horizon, ground, ramp(-w[1], 0.0, 0.5))
     } else {
@@ -165,8 +165,8 @@ fn radiance(w: [f64; 3]) -> [f64; 3] {
     let lamp = |axis: [f64; 3], inner: f64, outer: f64| {
         ramp(dot(w, axis), outer.to_radians().cos(), inner.to_radians().cos())
     };
-    let key = 5.0 * lamp(toward(-40.0, 48.0), 13.0, 18.0);
-    let rim = 1.5 * lamp(toward(150.0, 30.0), 16.0, 26.0);
+    let key = 8.0 * lamp(toward(-40.0, 48.0), 16.0, 22.0);
+    let rim = 3.0 * lamp(toward(150.0, 30.0), 16.0, 26.0);
     [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * t + key * [1.0, 0.98, 0.95][i] + rim * [0.95, 0.98, 1.0][i])
 }
 
@@ -252,7 +252,7 @@ mod tests {
         // Irradiance over π on planes that face up and to the front.
         let n = 200;
         for (normal, range) in
-            [([0.0, 1.0, 0.0], 0.8..1.3), ([0.0, 0.0, 1.0], 0.6..1.3), ([0.0, -1.0, 0.0], 0.2..0.5)]
+            [([0.0, 1.0, 0.0], 0.8..1.3), ([0.0, 0.0, 1.0], 0.6..1.3), ([0.0, -1.0, 0.0], 0.1..0.4)]
         {
             let mut sum = 0.0;
             for i in 0..n {

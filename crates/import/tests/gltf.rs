@@ -201,6 +201,19 @@ fn binary_files() {
     let mut old = whole.clone();
     old[4] = 1;
     refused(&read(&old), "version 1");
+    // Whatever is changed, there is a scene or a diagnostic, and no panic.
+    let mut number = 1u64;
+    for _ in 0..600 {
+        let mut bytes = whole.clone();
+        for _ in 0..=number % 3 {
+            number = number.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let at = (number >> 33) as usize % bytes.len();
+            let by = b"0129-,.\"{}[]\x00\xff5e";
+            bytes[at] = by[(number >> 20) as usize % by.len()];
+        }
+        let loaded = read(&bytes);
+        assert!(loaded.desc.is_some() || !loaded.diagnostics.is_empty());
+    }
     // Whatever is cut off, there is an error and no more.
     for end in 0..whole.len() {
         assert!(read(&whole[..end]).desc.is_none(), "{end}");
