@@ -273,7 +273,7 @@ impl Importer {
         }
         plugin.ignore(&["sample_visible", "sampleVisible"]);
         match plugin.text(&mut self.report, "distribution") {
-            Some("ggx") => Facets::SingleBounce,
+            Some("ggx") => Facets::Separable,
             None | Some("beckmann") => Facets::Beckmann,
             Some(other) => {
                 let text = format!("the distribution of facets `{other}` is not rendered");
