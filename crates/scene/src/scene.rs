@@ -6,7 +6,7 @@ use color::{LaneBasis, Lanes};
 use math::{Bounds3, Ray, Transform, Vec3};
 
 use crate::attributes::Owner;
-use crate::light::{LeSample, LiSample, LightHit, LightPicker};
+use crate::light::{DirectPicker, LeSample, LiSample, LightHit, LightPicker};
 use crate::material::{Lookup, Place};
 use crate::shape::to_world;
 use crate::texture::Picture;
@@ -76,7 +76,7 @@ pub struct Scene {
     /// Lights that rays reach by leaving the scene.
     pub(crate) environments: Vec<LightId>,
     pub(crate) light_media: Vec<MediumStack>,
-    pub(crate) direct_picker: LightPicker,
+    pub(crate) direct_picker: DirectPicker,
     pub(crate) global_picker: LightPicker,
     pub(crate) caustic_picker: LightPicker,
     pub(crate) targets: Targets,
@@ -278,7 +278,7 @@ impl Scene {
     }
 
     /// How lights are chosen for direct light.
-    pub fn direct_picker(&self) -> &LightPicker {
+    pub fn direct_picker(&self) -> &DirectPicker {
         &self.direct_picker
     }
 

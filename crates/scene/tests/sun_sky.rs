@@ -1,5 +1,7 @@
 //! The sun and the sky of a clear day.
 
+#![allow(clippy::unwrap_used, reason = "helpers of tests, too")]
+
 use math::Vec3;
 use nephroid_scene as scene;
 use scene::{Light, LightId, Scene};

@@ -63,7 +63,7 @@ fn facing(vertex: &Vertex, w: Vec3) -> Vec3 {
 pub fn connect_light(scene: &Scene, eye: &PathVertex, eta: f64, sampler: &mut Sampler) -> Option<Direct> {
     let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
     let vertex = &eye.vertex;
-    let (index, pmf, u_pick) = scene.direct_picker().sample(u_light);
+    let (index, pmf, u_pick) = scene.direct_picker().sample(&vertex.receiver(), u_light);
     if pmf == 0.0 {
         return None;
     }

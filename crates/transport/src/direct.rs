@@ -93,7 +93,7 @@ fn direct_weighted(
     if vertex.bsdf.is_delta_only() {
         return None;
     }
-    let (index, pmf, u_pick) = scene.direct_picker().sample(u_light);
+    let (index, pmf, u_pick) = scene.direct_picker().sample(&vertex.receiver(), u_light);
     if pmf == 0.0 {
         return None;
     }
@@ -210,6 +210,6 @@ fn densities(
     hit: Option<LightHit>,
 ) -> (f32, f32) {
     let Some(last) = last.filter(|last| last.lit) else { return (f32::INFINITY, 0.0) };
-    let pmf = scene.direct_picker().pmf(light.0 as usize);
-    (last.pdf_w, pmf * scene.light(light).pdf_li_w(last.p, direction, hit))
+    let pmf = scene.direct_picker().pmf(light.0 as usize, &last.from);
+    (last.pdf_w, pmf * scene.light(light).pdf_li_w(last.from.p, direction, hit))
 }

@@ -1,5 +1,5 @@
 use math::Vec3;
-use scene::light::{LeSample, LiSample, LightHit};
+use scene::light::{LeSample, LiSample, LightHit, Receiver};
 use scene::{LightId, Scene};
 
 use crate::{EyeEnd, SubpathMis};
@@ -19,9 +19,10 @@ pub struct LightDensities {
 
 impl LightDensities {
     /// For the first vertex of a light path.
-    pub fn of_start(scene: &Scene, id: LightId, le: &LeSample, receiver: Vec3) -> Self {
+    pub fn of_start(scene: &Scene, id: LightId, le: &LeSample, receiver: &Receiver) -> Self {
         let light = scene.light(id);
-        let pmf = f64::from(scene.direct_picker().pmf(id.0 as usize));
+        let pmf = f64::from(scene.direct_picker().pmf(id.0 as usize, receiver));
+        let receiver = receiver.p;
         let emission = f64::from(scene.global_picker().pmf(id.0 as usize));
         let emitted = emission * f64::from(le.pdf_a) * f64::from(le.pdf_w);
         if light.is_delta() {
@@ -58,12 +59,13 @@ impl LightDensities {
     pub fn of_end(scene: &Scene, id: LightId, end: &EyeEnd, hit: Option<LightHit>) -> Self {
         let light = scene.light(id);
         let wi = end.direction;
-        let start = hit.unwrap_or(LightHit { p: end.from, ng: Vec3::ZERO, prim: 0 });
+        let from = end.from.p;
+        let start = hit.unwrap_or(LightHit { p: from, ng: Vec3::ZERO, prim: 0 });
         let (pdf_a, pdf_w) = light.pdf_le(&start, -wi);
         let cos = hit.map_or(1.0, |hit| f64::from(hit.ng.dot(wi).abs()));
-        let pmf = f64::from(scene.direct_picker().pmf(id.0 as usize));
+        let pmf = f64::from(scene.direct_picker().pmf(id.0 as usize, &end.from));
         Self {
-            direct: pmf * f64::from(light.pdf_li_w(end.from, wi, hit)) * cos,
+            direct: pmf * f64::from(light.pdf_li_w(from, wi, hit)) * cos,
             emitted: emission_pmf(scene, id) * f64::from(pdf_a) * f64::from(pdf_w),
             cos,
         }

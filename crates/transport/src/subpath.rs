@@ -2,7 +2,7 @@ use bsdf::{Bsdf, BsdfKind, Lobes, TransportMode};
 use math::Vec3;
 use sampling::Sampler;
 use scene::camera::WePdf;
-use scene::light::LeSample;
+use scene::light::{LeSample, Receiver};
 use scene::{LightId, Scene};
 
 use crate::mis::Scattering;
@@ -17,7 +17,7 @@ pub struct Subpath<'s> {
     connections: Connections,
     /// As the path left its last vertex, or where it starts.
     leaving: SubpathMis,
-    from: Vec3,
+    from: Receiver,
     /// Until its first vertex is known.
     start: Start,
 }
@@ -61,7 +61,7 @@ impl PathVertex {
 #[derive(Clone, Copy, Debug)]
 pub struct EyeEnd {
     /// Its last vertex.
-    pub from: Vec3,
+    pub from: Receiver,
     /// Direction of its last ray.
     pub direction: Vec3,
     /// As it left that vertex.
@@ -77,14 +77,20 @@ impl<'s> Subpath<'s> {
             WePdf::PerArea(density) => (SubpathMis::of_camera(density), Start::Parallel),
         };
         let leaving = if connections == Connections::Made { mis } else { mis.without_edge() };
-        Self { from: walk.ray.origin, walk, connections, leaving, start }
+        Self { from: Receiver { p: walk.ray.origin, n: Vec3::ZERO }, walk, connections, leaving, start }
     }
 
     /// From a light.
     #[inline]
     pub fn from_light(walk: Walk<'s>, id: LightId, le: LeSample, connections: Connections) -> Self {
         let leaving = SubpathMis::default();
-        Self { from: le.p, walk, connections, leaving, start: Start::Light(id, le) }
+        Self {
+            from: Receiver { p: le.p, n: Vec3::ZERO },
+            walk,
+            connections,
+            leaving,
+            start: Start::Light(id, le),
+        }
     }
 
     /// The next surface.
@@ -98,12 +104,13 @@ impl<'s> Subpath<'s> {
         let p = vertex.hit.p;
         let distance2 = match std::mem::replace(&mut self.start, Start::Point) {
             Start::Light(id, le) => {
-                let start = LightDensities::of_start(self.walk.scene(), id, &le, p).start(self.connections);
+                let start = LightDensities::of_start(self.walk.scene(), id, &le, &vertex.receiver())
+                    .start(self.connections);
                 self.leaving = if self.walk.is_clear() { start } else { start.without_edge() };
                 1.0
             }
             Start::Parallel => 1.0,
-            Start::Point => f64::from(p.distance_squared(self.from)),
+            Start::Point => f64::from(p.distance_squared(self.from.p)),
         };
         let mis = self.leaving.arrived(distance2, geometric_cos(&vertex, vertex.wo));
         Some(PathVertex { vertex, mis })
@@ -137,7 +144,7 @@ impl<'s> Subpath<'s> {
             };
             mis.scattered(&event, self.connections)
         };
-        self.from = vertex.hit.p;
+        self.from = vertex.receiver();
         Some(scattered)
     }
 

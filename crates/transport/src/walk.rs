@@ -2,6 +2,7 @@ use bsdf::{Bsdf, DeltaLobe, Lobes, TransportMode};
 use color::Lanes;
 use math::{Ray, Vec3};
 use sampling::Sampler;
+use scene::light::Receiver;
 use scene::{Boundary, MaterialId, Medium, MediumStack, Scene, SurfaceInteraction};
 
 /// Scattering events after which every walk may end.
@@ -70,6 +71,13 @@ impl Vertex {
         if self.wo.dot(self.hit.ng) < 0.0 { -self.hit.ng } else { self.hit.ng }
     }
 
+    /// How light sampling sees it.
+    #[inline]
+    pub fn receiver(&self) -> Receiver {
+        let both = self.bsdf.lobes().contains(Lobes::TRANSMISSION);
+        Receiver { p: self.hit.p, n: if both { Vec3::ZERO } else { self.facing_ng() } }
+    }
+
     /// What is left, after `distance`, of light that leaves or arrives along `w` without meeting a surface.
     #[inline]
     pub fn transmittance(&self, scene: &Scene, w: Vec3, distance: f32) -> Lanes {
@@ -85,7 +93,7 @@ impl Vertex {
 #[derive(Clone, Copy, Debug)]
 pub struct Scattered {
     /// The point from which the ray went on.
-    pub p: Vec3,
+    pub from: Receiver,
     /// Density of the direction per steradian; of no meaning after a delta lobe.
     pub pdf_w: f32,
     /// Kind of the lobe that was drawn.
@@ -213,7 +221,7 @@ impl<'s> Walk<'s> {
         self.follow(vertex, sample.wi, sample.weight, sample.lobes, sample.eta);
         // A density is only of use where light sampling competes.
         let scattered = Scattered {
-            p: vertex.hit.p,
+            from: vertex.receiver(),
             pdf_w: sample.pdf_w,
             lobes: sample.lobes,
             lit: !sample.lobes.contains(Lobes::SPECULAR),
@@ -227,7 +235,7 @@ impl<'s> Walk<'s> {
     pub fn follow_delta(&mut self, vertex: &Vertex, lobe: &DeltaLobe) {
         self.follow(vertex, lobe.wi, lobe.weight, lobe.lobes, lobe.eta);
         let (lobes, eta) = (lobe.lobes, lobe.eta);
-        self.last = Some(Scattered { p: vertex.hit.p, pdf_w: 0.0, lobes, lit: false, eta });
+        self.last = Some(Scattered { from: vertex.receiver(), pdf_w: 0.0, lobes, lit: false, eta });
     }
 
     #[inline]

@@ -33,7 +33,7 @@ fn ball(center: [f32; 3], material: Material) -> Object {
 
 /// A room of diffuse, rough, coated, mirroring and refracting things with one kind of light; an open one for lights at
 /// infinity.
-fn room(lens: CameraKind, lamp: Option<Object>, light: Option<LightKind>) -> Scene {
+fn room(lens: CameraKind, lamps: impl IntoIterator<Item = Object>, light: Option<LightKind>) -> Scene {
     let wall =
         |origin, edge_u, edge_v| Object::new(Shape::Quad { origin, edge_u, edge_v }, Material::diffuse(0.7));
     let mut objects = vec![
@@ -47,7 +47,7 @@ fn room(lens: CameraKind, lamp: Option<Object>, light: Option<LightKind>) -> Sce
         ball([0.8, 1.3, -0.6], Material::plastic(0.6, 0.4)),
         ball([-0.8, 1.3, -0.6], Material::phong([0.4; 3], [0.4; 3], 15.0)),
     ];
-    objects.extend(lamp);
+    objects.extend(lamps);
     // Among the things, where all directions are seen.
     let away = if let CameraKind::Spherical { .. } = lens { 1.4 } else { 3.4 };
     let camera = Camera {
@@ -136,7 +136,8 @@ impl Checker<'_> {
     /// The recursion over a whole path from its light: what a light path would have at each vertex.
     fn as_light_path(&self, path: &FullPath) -> Vec<SubpathMis> {
         let first = &path.nodes[0];
-        let start = LightDensities::of_start(self.scene, path.light.id, &path.light.le, first.vertex.hit.p);
+        let start =
+            LightDensities::of_start(self.scene, path.light.id, &path.light.le, &first.vertex.receiver());
         self.along(
             path.nodes.iter().collect(),
             start.start(Connections::Made),
@@ -240,7 +241,7 @@ impl Checker<'_> {
                 };
                 leaving.scattered(&event, Connections::Made)
             };
-            let end = EyeEnd { from: last.vertex.hit.p, direction: last.to_light, leaving };
+            let end = EyeEnd { from: last.vertex.receiver(), direction: last.to_light, leaving };
             let found = match &path.light.surface {
                 Some(vertex) => emission_against_all(scene, &end, vertex, ETA).map(|e| e.weight),
                 None => {
@@ -403,6 +404,14 @@ fn scenes() -> Vec<(&'static str, Scene)> {
     };
     let sun = LightKind::Directional { direction: [0.3, -1.0, -0.4], irradiance: [1.0; 3] };
     let sky = LightKind::Environment { radiance: [0.5; 3] };
+    let many: Vec<Object> = (0..12)
+        .filter_map(|i| {
+            let (x, z) = (0.4 * i as f32 - 2.0, 0.3 * (i % 5) as f32 - 0.2);
+            let disk = Shape::Disk { center: [x, 2.7, z], normal: [0.1 * x, -1.0, 0.0], radius: 0.2 };
+            let globe = Shape::Sphere { center: [x, 2.4, z], radius: 0.1 };
+            glow(if i % 2 == 0 { disk } else { globe }, i % 4 == 0)
+        })
+        .collect();
     vec![
         ("disk", room(pinhole, glow(disk.clone(), false), None)),
         ("disk, thin lens", room(lens, glow(disk.clone(), false), None)),
@@ -410,6 +419,8 @@ fn scenes() -> Vec<(&'static str, Scene)> {
         ("disk, all directions", room(all_around, glow(disk.clone(), false), None)),
         ("sphere", room(pinhole, glow(globe.clone(), false), None)),
         ("two-sided quad", room(pinhole, glow(quad.clone(), true), None)),
+        ("many lamps", room(pinhole, many.clone(), None)),
+        ("many lamps and a sky", room(pinhole, many, Some(sky.clone()))),
         ("textured quad", room(pinhole, glow_by("pattern", quad), None)),
         ("textured disk", room(pinhole, glow_by("pattern", disk.clone()), None)),
         ("textured sphere", room(pinhole, glow_by("pattern", globe.clone()), None)),

@@ -16,6 +16,7 @@ mod lamps;
 mod layers;
 #[cfg(feature = "long")]
 mod long;
+mod many_lights;
 mod materials;
 mod nephroid_curve;
 mod nested;

@@ -19,7 +19,7 @@ use scenefile::desc::{
 use scenefile::{Diagnostic, Sourced, Span};
 
 use crate::camera::{CameraError, Fov, Lens, Side};
-use crate::light::LightPicker;
+use crate::light::{DirectPicker, LightPicker};
 use crate::scene::{CameraMedia, Group, LightTexture, Outer, light_factor, media_at};
 use crate::{
     Camera, Light, LightId, Material, MaterialId, MaterialKind, MediumStack, Object, Scene, Shape, Survey,
@@ -466,7 +466,7 @@ impl<'d> Compiler<'d> {
             textures,
             environments,
             light_media: vec![MediumStack::default(); self.lights.len()],
-            direct_picker: LightPicker::direct(&self.lights),
+            direct_picker: DirectPicker::new(&self.lights),
             global_picker: LightPicker::photons(&self.lights),
             caustic_picker: LightPicker::caustics(&self.lights, &targets),
             lights: self.lights,

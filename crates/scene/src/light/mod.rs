@@ -8,6 +8,7 @@
 
 pub(crate) mod aim;
 mod area;
+mod cone;
 mod directional;
 mod disk;
 mod emission;
@@ -24,6 +25,7 @@ mod sphere;
 mod spot;
 mod sun;
 mod sun_data;
+mod tree;
 mod triangles;
 
 use color::Lanes;
@@ -37,7 +39,7 @@ use emission::{Emission, Origin};
 pub use environment::EnvironmentLight;
 pub use goniometric::GoniometricShape;
 use pattern::Pattern;
-pub use picker::LightPicker;
+pub use picker::{DirectPicker, LightPicker};
 pub use point::PointLight;
 pub use profile::ProfileShape;
 pub use projector::SlideShape;
@@ -71,6 +73,15 @@ pub enum Light {
     Disk(DiskLight),
     /// Triangles: quads and meshes.
     Triangles(TriangleLight),
+}
+
+/// Where light is asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Receiver {
+    /// Position.
+    pub p: Vec3,
+    /// Unit geometric normal on the side that light is received on; zero: on both, or in empty space.
+    pub n: Vec3,
 }
 
 /// Light that would arrive at a receiver, were nothing in between.

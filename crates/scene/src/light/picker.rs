@@ -1,7 +1,97 @@
 use sampling::Discrete;
 
-use super::Light;
+use super::tree::{self, LightTree};
+use super::{Light, Receiver};
 use crate::target::Targets;
+
+/// Lights at finite places from which on a tree chooses among them.
+const TREE_FROM: usize = 9;
+
+/// Chooses a light for direct light at a receiver.
+#[derive(Clone, Debug)]
+pub enum DirectPicker {
+    /// Few lights: the same everywhere.
+    Even(LightPicker),
+    /// Many: those at infinity the same everywhere, ½ by power and ½ alike (all others counting as one); the others by a tree.
+    Tree(Box<TreePicker>),
+}
+
+/// [`DirectPicker::Tree`].
+#[derive(Clone, Debug)]
+pub struct TreePicker {
+    /// Lights at infinity by index, and after them the tree.
+    first: Discrete,
+    infinite: Vec<usize>,
+    tree: LightTree,
+}
+
+impl DirectPicker {
+    /// For these lights.
+    pub fn new(lights: &[Light]) -> Self {
+        if lights.iter().filter(|l| tree::is_local(l)).count() < TREE_FROM {
+            Self::Even(LightPicker::direct(lights))
+        } else {
+            Self::tree(lights)
+        }
+    }
+
+    /// By a tree, however few there are.
+    pub fn tree(lights: &[Light]) -> Self {
+        let powers = powers(lights);
+        let infinite: Vec<usize> =
+            (0..lights.len()).filter(|&i| lights[i].is_infinite() && powers[i] > 0.0).collect();
+        let tree = LightTree::new(lights);
+        let total: f64 = powers.iter().sum();
+        let far: f64 = infinite.iter().map(|&i| powers[i]).sum();
+        let local = if tree.is_empty() { 0.0 } else { 1.0 };
+        let count = infinite.len() as f64 + local;
+        let shares = infinite.iter().map(|&i| powers[i] / total + 1.0 / count);
+        let rest = if tree.is_empty() { 0.0 } else { (total - far) / total + 1.0 / count };
+        let first = Discrete::new(shares.chain([rest]));
+        Self::Tree(Box::new(TreePicker { first, infinite, tree }))
+    }
+
+    /// Index of a light for `u` in [0, 1), its probability at the receiver, and `u` mapped back to [0, 1) for reuse. Where there
+    /// is no light that shines there the probability is 0.
+    #[inline]
+    pub fn sample(&self, at: &Receiver, u: f32) -> (usize, f32, f32) {
+        match self {
+            Self::Even(picker) => picker.sample(u),
+            Self::Tree(picker) => picker.sample(&{ *at }, u),
+        }
+    }
+
+    /// Probability of a light at the receiver.
+    #[inline]
+    pub fn pmf(&self, light: usize, at: &Receiver) -> f32 {
+        match self {
+            Self::Even(picker) => picker.pmf(light),
+            Self::Tree(picker) => picker.pmf(light, &{ *at }),
+        }
+    }
+}
+
+impl TreePicker {
+    #[inline(never)]
+    fn sample(&self, at: &Receiver, u: f32) -> (usize, f32, f32) {
+        let (index, p, u) = self.first.sample(u);
+        match self.infinite.get(index) {
+            Some(&light) => (light, p, u),
+            None => match self.tree.sample(at, u) {
+                Some((light, pmf, u)) => (light, p * pmf, u),
+                None => (0, 0.0, u),
+            },
+        }
+    }
+
+    #[inline(never)]
+    fn pmf(&self, light: usize, at: &Receiver) -> f32 {
+        match self.infinite.iter().position(|&i| i == light) {
+            Some(index) => self.first.pmf(index),
+            None => self.first.pmf(self.infinite.len()) * self.tree.pmf(light, at),
+        }
+    }
+}
 
 /// Chooses a light; the probabilities are exact, so any choice leaves estimates unbiased.
 #[derive(Clone, Debug, Default)]
@@ -9,8 +99,10 @@ pub struct LightPicker {
     picks: Discrete,
 }
 
-/// Samples per light from which the power toward targets is estimated.
-const ESTIMATE_SAMPLES: u32 = 512;
+/// Samples per light from which the power toward targets is estimated, and of all lights about as many at most.
+const ESTIMATE_SAMPLES: usize = 512;
+const ESTIMATE_SAMPLES_OF_ALL: usize = 1 << 18;
+const LEAST_ESTIMATE_SAMPLES: usize = 32;
 
 impl LightPicker {
     /// For direct light: ½ by power, ½ uniform over the lights that have any.
@@ -28,7 +120,9 @@ impl LightPicker {
     /// ([`Light::may_reach`]): however dim, each of them has at least 1/(2·lights) of the photons.
     pub fn caustics(lights: &[Light], targets: &Targets) -> Self {
         let lit: Vec<bool> = lights.iter().map(|l| !l.power().is_zero() && l.may_reach(targets)).collect();
-        let estimate = |(l, &lit): (&Light, &bool)| if lit { power_toward(l, targets) } else { 0.0 };
+        let samples =
+            (ESTIMATE_SAMPLES_OF_ALL / lights.len().max(1)).clamp(LEAST_ESTIMATE_SAMPLES, ESTIMATE_SAMPLES);
+        let estimate = |(l, &lit): (&Light, &bool)| if lit { power_toward(l, targets, samples) } else { 0.0 };
         let sent: Vec<f64> = lights.iter().zip(&lit).map(estimate).collect();
         Self::mixed(&sent, &lit)
     }
@@ -78,16 +172,16 @@ fn powers(lights: &[Light]) -> Vec<f64> {
 }
 
 /// Flux sent toward the targets, in watts (mean of the lanes).
-fn power_toward(light: &Light, targets: &Targets) -> f64 {
+fn power_toward(light: &Light, targets: &Targets, samples: usize) -> f64 {
     let mut sum = 0.0;
-    for i in 0..ESTIMATE_SAMPLES {
+    for i in 0..samples as u32 {
         let u = kronecker(i);
         if let Some(s) = light.sample_le_toward(targets, u[0], [u[1], u[2]], [u[3], u[4]]) {
             sum += f64::from(light.radiance_about(&s).mean() * s.cos)
                 / (f64::from(s.pdf_a) * f64::from(s.pdf_w));
         }
     }
-    sum / f64::from(ESTIMATE_SAMPLES)
+    sum / samples as f64
 }
 
 /// Point `i` of the Kronecker sequence whose steps are the powers of 1/φ₅, φ₅⁶ = φ₅ + 1 (Roberts 2018).

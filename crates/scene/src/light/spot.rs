@@ -45,6 +45,14 @@ impl SpotLight {
     }
 
     /// ∫ falloff dω.
+    pub(super) fn axis(&self) -> Vec3 {
+        self.frame.z
+    }
+
+    pub(super) fn outer_angle(&self) -> f32 {
+        self.outer_angle
+    }
+
     pub(super) fn solid_angle(&self) -> f64 {
         std::f64::consts::PI * (self.inner + self.outer)
     }

@@ -100,8 +100,7 @@ impl SunLight {
 /// Irradiance of the sun on a plane that faces it, W/m² in linear RGB, at an elevation above the horizon in radians (0 below)
 /// through air of a turbidity, moved into [1, 10]. Linear between the elevations and turbidities of [`IRRADIANCE`].
 pub fn sun_irradiance(elevation: f32, turbidity: f32) -> [f32; 3] {
-    // Not `<`: what is no number has no sun.
-    if !(elevation >= 0.0) {
+    if elevation.is_nan() || elevation < 0.0 {
         return [0.0; 3];
     }
     let place = |x: f32, last: usize| {

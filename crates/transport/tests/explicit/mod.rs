@@ -103,7 +103,7 @@ impl FullPath {
         sampler: Sampler,
     ) -> Option<Self> {
         let mut numbers = sampler;
-        let (index, pmf, u_pick) = scene.direct_picker().sample(numbers.next_1d());
+        let (index, pmf, u_pick) = scene.direct_picker().sample(&at.vertex.receiver(), numbers.next_1d());
         let id = LightId(index as u32);
         let vertex = &at.vertex;
         let li = scene.sample_li(id, vertex.hit.p, vertex.hit.ng, u_pick, numbers.next_2d())?;
@@ -257,7 +257,7 @@ impl<'p> Explicit<'p> {
         }
         let geometry = if far { 1.0 } else { f64::from(le.cos) / first };
         from_eye[0] = if delta { 0.0 } else { backward(0) * geometry };
-        let direct = f64::from(scene.direct_picker().pmf(index));
+        let direct = f64::from(scene.direct_picker().pmf(index, &nodes[0].vertex.receiver()));
         let front = if light.emitted(le.n, le.w).is_zero() { -le.n } else { le.n };
         let hit = (!far).then_some(LightHit { p: le.p, ng: front, prim: le.prim });
         let drawn = match delta {
