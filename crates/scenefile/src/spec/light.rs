@@ -52,7 +52,7 @@ const PICTURE_INTENSITY: &[Key] = &[
     TEMPERATURE,
 ];
 
-const PICTURE: Kind = Kind::File(&["hdr", "exr", "png", "jpg", "jpeg"]);
+const PICTURE: Kind = Kind::File(super::texture::PICTURES);
 
 const PLACED: Key = key(
     "transform",
@@ -263,7 +263,7 @@ pub const LIGHTS: Section = Section {
                     TEMPERATURE,
                     key(
                         "file",
-                        Kind::File(&["hdr", "exr", "png", "jpg", "jpeg"]),
+                        PICTURE,
                         "",
                         Absent("radiance counts"),
                         "A picture of the whole sphere, as mapping has it.",
