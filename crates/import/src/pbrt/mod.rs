@@ -111,6 +111,8 @@ struct Importer {
     /// What named media absorb, as far as they are rendered.
     media: HashMap<String, Option<Filling>>,
     object: Option<OpenObject>,
+    /// Vertices of shapes that became meshes.
+    vertices: u64,
     /// Where the last object is one of curves: whether it lies in the open object, and how many there are then.
     curves_at: Option<(bool, usize)>,
     /// Whether version 3 wrote the scene: it ends with a directive that version 4 does not have.
@@ -155,6 +157,7 @@ impl Importer {
             variants: HashMap::new(),
             media: HashMap::new(),
             object: None,
+            vertices: 0,
             curves_at: None,
             is_version_3: false,
             mirror: Matrix::IDENTITY,

@@ -9,8 +9,8 @@ use super::subdivision;
 use crate::curve;
 use crate::surfaces::{self, Mesh};
 
-/// Vertices that a tessellated shape has at most.
-const MOST_VERTICES: u64 = 1 << 26;
+/// Vertices of all shapes together that become meshes here, at most: about 1.5 GB.
+const MOST_VERTICES: u64 = 1 << 25;
 
 impl Importer {
     pub(super) fn shape(&mut self, kind: &str, at: Span, params: &Params) {
@@ -47,6 +47,9 @@ impl Importer {
             }
         };
         let Some(shape) = made.flatten() else { return };
+        if kind != "trianglemesh" && !self.has_room(&shape, params) {
+            return;
+        }
         let Some(material) = material else {
             if let Some(emission) = emission {
                 let text = "a surface that is no more than an interface does not shine in pbrt";
@@ -108,14 +111,10 @@ impl Importer {
                 && b.emission.is_none()
                 && a.material_name() == b.material_name()
         };
-        let is_room = |last: &Sourced<Object>| match &last.shape.value {
-            Shape::Triangles { positions, .. } => (positions.len() as u64) < MOST_VERTICES,
-            _ => false,
-        };
         let here = (inside, objects.len());
         if is_curve
             && before == Some(here)
-            && let Some(last) = objects.last_mut().filter(|last| same(last) && is_room(last))
+            && let Some(last) = objects.last_mut().filter(|last| same(last))
         {
             last.value.shape.value.extend(object.value.shape.value);
             self.curves_at = Some(here);
@@ -125,6 +124,21 @@ impl Importer {
         if is_curve {
             self.curves_at = Some((inside, objects.len()));
         }
+    }
+
+    /// Counts what a small text makes much of; too much is an error.
+    fn has_room(&mut self, shape: &Shape, params: &Params) -> bool {
+        let Shape::Triangles { positions, .. } = shape else { return true };
+        self.vertices = self.vertices.saturating_add(positions.len() as u64);
+        let has_room = self.vertices <= MOST_VERTICES;
+        if !has_room {
+            self.report.error(
+                "too-large",
+                "the curved shapes of the scene have too many facets",
+                params.span,
+            );
+        }
+        has_room
     }
 
     /// A mesh in place; `None` where nothing of it has an area, which is said.
@@ -211,7 +225,8 @@ impl Importer {
         let mesh = self.vertices(params)?;
         let indices = self.faces::<3>(params, mesh.positions.len())?;
         let corners = 3 * indices.len() as u64;
-        if corners << (2 * levels) > MOST_VERTICES {
+        // Twice as much on the way: rings of neighbours.
+        if corners << (2 * levels) > MOST_VERTICES / 2 {
             self.report.error("too-large", format!("{} makes too many triangles", params.what), params.span);
             return None;
         }

@@ -1,0 +1,157 @@
+//! What each fuzz target does with its bytes, and where fuzzing begins.
+//!
+//! Inputs are small (`run` bounds them), and files are read from a folder of the process alone: an input that could name a file
+//! elsewhere is left out.
+
+pub mod seeds;
+
+use std::path::Path;
+
+use film::{FilmHead, SectionReader, SectionWriter};
+use scenefile::{Loaded, SceneDesc};
+
+thread_local! {
+    static FOLDER: tempfile::TempDir = {
+        let folder = tempfile::tempdir().expect("a folder for files");
+        seeds::neighbours(folder.path());
+        folder
+    };
+}
+
+/// Does something with a file of these bytes, beside a few others.
+fn with_file(name: &str, data: &[u8], then: impl FnOnce(&Path)) {
+    FOLDER.with(|folder| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, data).expect("a file in the folder");
+        then(&path);
+    });
+}
+
+/// Whether a text might name a file outside of its folder: by `..`, or by a slash where a name begins.
+fn leads_out(data: &[u8]) -> bool {
+    data.windows(2).any(|w| w == b".." || w == b"\"/" || w == b"'/" || w == b"\\u" || w == b"&#")
+}
+
+/// What is read well is written as TOML that reads the same.
+fn survives_toml(desc: &SceneDesc) {
+    let text = scenefile::to_toml(desc);
+    let again = scenefile::parse(&text, &desc.base.join("a.toml"), &[]);
+    assert!(again.desc.is_some(), "{}\n{text}", again.render());
+    assert!(again.desc.as_ref() == Some(desc), "another description:\n{text}");
+}
+
+fn scene(name: &str, data: &[u8]) {
+    if leads_out(data) {
+        return;
+    }
+    with_file(name, data, |path| {
+        let loaded: Loaded = import::load(path, &[]);
+        let _ = loaded.render();
+        if let Some(mut desc) = loaded.desc {
+            // Large meshes and embedded pictures become files.
+            let written = import::outsource(&mut desc, &path.with_extension("toml"));
+            written.expect("files in the folder");
+            survives_toml(&desc);
+        }
+    });
+}
+
+/// A scene file of Nephroid's own.
+pub fn toml(data: &[u8]) {
+    let Ok(text) = std::str::from_utf8(data) else { return };
+    if leads_out(data) {
+        return;
+    }
+    FOLDER.with(|folder| {
+        let loaded = scenefile::parse(text, &folder.path().join("a.toml"), &[]);
+        let _ = loaded.render();
+        if let Some(desc) = loaded.desc {
+            survives_toml(&desc);
+        }
+    });
+}
+
+/// A pbrt scene.
+pub fn pbrt(data: &[u8]) {
+    scene("scene.pbrt", data);
+}
+
+/// glTF as text.
+pub fn gltf(data: &[u8]) {
+    scene("scene.gltf", data);
+}
+
+/// glTF in one binary file.
+pub fn glb(data: &[u8]) {
+    scene("scene.glb", data);
+}
+
+/// A mesh in text.
+pub fn obj(data: &[u8]) {
+    if let Ok(mesh) = mesh::obj::parse(data) {
+        mesh.validate().expect("a mesh that was read is valid");
+    }
+}
+
+/// A mesh in text or binary.
+pub fn ply(data: &[u8]) {
+    if let Ok(mesh) = mesh::ply::parse(data) {
+        mesh.validate().expect("a mesh that was read is valid");
+    }
+}
+
+/// A texture.
+pub fn image(data: &[u8]) {
+    use scene::texture::{Encoding, ImageTexture};
+    let _ = ImageTexture::from_bytes(data, Encoding::Srgb);
+}
+
+/// A spectrum in a file.
+pub fn spd(data: &[u8]) {
+    with_file("lamp.spd", data, |path| {
+        let text = b"Camera \"perspective\"\nWorldBegin\nLightSource \"point\" \"spectrum I\" \"lamp.spd\"\nShape \"sphere\"\n";
+        let scene = path.with_file_name("lamp.pbrt");
+        std::fs::write(&scene, text).expect("a file in the folder");
+        let _ = import::load(&scene, &[]).render();
+    });
+}
+
+/// Sections with right checksums: in the input each is a tag, a length (u32, little-endian) and its bytes.
+fn sections(data: &[u8]) -> Option<Vec<u8>> {
+    let mut out = SectionWriter::new(Vec::new());
+    let mut rest = data;
+    while let Some((head, after)) = rest.split_first_chunk::<8>() {
+        let (tag, length) = head.split_first_chunk::<4>()?;
+        let length = u32::from_le_bytes(length.try_into().ok()?) as usize;
+        let (bytes, after) = after.split_at(length.min(after.len()));
+        out.write(*tag, bytes).ok()?;
+        rest = after;
+    }
+    out.finish().ok()
+}
+
+/// A film, its sections intact.
+pub fn film(data: &[u8]) {
+    let Some(bytes) = sections(data) else { return };
+    let mut input = SectionReader::new(&bytes[..]);
+    if let Ok(film) = FilmHead::read(&mut input).and_then(|head| head.read_pixels(&mut input)) {
+        let _ = (film.beauty(), film.passes());
+    }
+}
+
+/// A checkpoint: its first half as it comes, or its sections intact.
+pub fn checkpoint(data: &[u8]) {
+    let Some((first, rest)) = data.split_first() else { return };
+    let bytes = match (first % 2, rest.split_first_chunk::<12>()) {
+        (0, Some((head, rest))) => match sections(rest) {
+            Some(sections) => [head, &sections[..]].concat(),
+            None => return,
+        },
+        _ => rest.to_vec(),
+    };
+    with_file("a.ckpt", &bytes, |path| {
+        if let Ok(checkpoint) = session::Checkpoint::read(path) {
+            let _ = checkpoint.film.beauty();
+        }
+    });
+}
