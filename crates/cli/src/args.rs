@@ -54,10 +54,10 @@ pub enum Command {
 /// A scene and what replaces parts of it.
 #[derive(Debug, Args)]
 pub struct SceneArgs {
-    /// The scene file: TOML, or .pbrt (version 4, or 3 where its names differ).
+    /// The scene file: TOML, .pbrt (version 4, or 3 where its names differ), .xml (Mitsuba), .gltf, .glb, .obj or .ply.
     pub scene: PathBuf,
 
-    /// Take every doubt about the scene for a mistake, as what a .pbrt file has and Nephroid does not.
+    /// Take every doubt about the scene for a mistake, as what a file of another program has and Nephroid does not.
     #[arg(long)]
     pub strict: bool,
 
