@@ -17,6 +17,8 @@ pub struct Medium {
     pub material: MaterialId,
     /// Refractive index.
     pub ior: f32,
+    /// The index before its boundary, where the boundary by itself decides how light is refracted; 0: nesting does.
+    pub outside: f32,
     /// Which of two overlapping dielectrics is there: the higher.
     pub priority: i32,
 }
@@ -58,7 +60,7 @@ impl MediumStack {
                 self.entries[len] = medium;
                 self.len += 1;
             }
-        } else if let Some(i) = self.entries[..len].iter().rposition(|m| m.material == medium.material) {
+        } else if let Some(i) = self.left(medium) {
             self.entries.copy_within(i + 1..len, i);
             self.entries[len - 1] = Medium::default();
             self.len -= 1;
@@ -66,8 +68,19 @@ impl MediumStack {
         self
     }
 
+    /// Which entry a ray leaves through the boundary of `medium`: the last of its material. Boundaries that decide by themselves
+    /// may be several materials around one solid, so that there it is the last such one at least.
+    fn left(&self, medium: Medium) -> Option<usize> {
+        let entered = &self.entries[..self.len as usize];
+        let own = entered.iter().rposition(|m| m.material == medium.material);
+        own.or_else(|| entered.iter().rposition(|m| m.outside > 0.0 && medium.outside > 0.0))
+    }
+
     /// What the boundary of `medium` separates for a ray that is in this stack and would enter or leave.
     pub fn boundary(&self, medium: Medium, entering: bool) -> Boundary {
+        if medium.outside > 0.0 {
+            return Boundary::Interface { eta: medium.ior / medium.outside };
+        }
         let after = self.crossed(medium, entering);
         let (here, there) = (self.current(), after.current());
         let key = |m: Option<Medium>| m.map(|m| m.material);
@@ -89,7 +102,7 @@ mod tests {
     use super::*;
 
     fn medium(id: u32, ior: f32, priority: i32) -> Medium {
-        Medium { material: MaterialId(id), ior, priority }
+        Medium { material: MaterialId(id), ior, outside: 0.0, priority }
     }
 
     #[test]
@@ -123,6 +136,28 @@ mod tests {
         assert_eq!(once.boundary(glass, true), Boundary::Invisible);
         assert_eq!(twice.boundary(glass, false), Boundary::Invisible);
         assert_eq!(twice.crossed(glass, false).crossed(glass, false), MediumStack::default());
+    }
+
+    #[test]
+    fn interfaces_decide_by_themselves() {
+        // Milk in a glass: its side meets glass, its top air; both bound the one solid.
+        let glass = Medium { outside: 1.0, ..medium(1, 1.5, 0) };
+        let side = Medium { outside: 1.5, ..medium(2, 1.33, 0) };
+        let top = Medium { outside: 1.0, ..medium(3, 1.33, 0) };
+        let eta = |stack: MediumStack, m, entering| match stack.boundary(m, entering) {
+            Boundary::Interface { eta } => eta,
+            Boundary::Invisible => panic!("an interface"),
+        };
+        let outside = MediumStack::default();
+        assert_eq!(eta(outside, glass, true), 1.5);
+        let wall = outside.crossed(glass, true);
+        assert_eq!(eta(wall, side, true), 1.33 / 1.5);
+        let milk = wall.crossed(side, true);
+        assert_eq!(eta(milk, top, false), 1.33);
+        // Through the top it is the milk that is left, although its side was entered.
+        assert_eq!(milk.crossed(top, false), wall);
+        assert_eq!(eta(outside, top, true), 1.33);
+        assert_eq!(outside.crossed(top, true).crossed(side, false), outside);
     }
 
     #[test]

@@ -126,6 +126,7 @@ impl Dice {
             2 => MaterialKind::Mirror { color: self.color() },
             3 => MaterialKind::Dielectric(Dielectric {
                 ior: self.ior(),
+                outside_ior: (self.below(2) == 0).then(|| 1.0 + self.unit()),
                 color: self.color(),
                 specular: self.color(),
                 roughness: self.roughness(),

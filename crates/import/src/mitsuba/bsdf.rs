@@ -220,6 +220,10 @@ impl Importer {
         plugin.ignore(&["flip_invalid_normals", "use_shadowing_function"]);
         let map = self.only_texture(plugin, used.uv);
         let mut material = self.nested(plugin, used, depth)?;
+        if used.uv == Uv::Down {
+            let text = "a normal map on a shape whose pictures stand on their heads is not rendered as it is";
+            self.report.instead(text, "its green channel counts the other way", plugin.span);
+        }
         if let Some(ColorDesc::Texture(name)) = map {
             each_part(&mut material, &mut |m| m.normal_map = Some(name.clone()));
         }

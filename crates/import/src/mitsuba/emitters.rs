@@ -108,6 +108,10 @@ impl Importer {
             "spot" => {
                 let cutoff = plugin.number_or(&mut self.report, "cutoff_angle", 20.0).clamp(0.01, 180.0);
                 let beam = plugin.number_or(&mut self.report, "beam_width", cutoff * 0.75);
+                if !(0.6..0.9).contains(&(beam / cutoff)) {
+                    let text = "the edge of a spot light that falls evenly with the angle is not rendered";
+                    self.report.instead(text, "it falls smoothly", plugin.span);
+                }
                 if plugin.find("texture").is_some() {
                     let text = "the texture of a spot light is not rendered";
                     self.report.instead(text, "it shines in one colour", plugin.span);
@@ -137,7 +141,7 @@ impl Importer {
                 LightKind::Sky { source, mapping, scale: [scale; 3], transform: place.steps() }
             }
             "sunsky" | "timed_sunsky" | "sun" | "sky" => {
-                let Some(sky) = sunsky::sun_sky(&mut self.report, plugin, &place) else { return };
+                let Some(sky) = sunsky::sun_sky(&mut self.report, plugin, &self.mirror) else { return };
                 // Version 3 gives the ground's albedo as a colour.
                 let albedo = self.channels(plugin, "albedo");
                 let sky = match albedo {

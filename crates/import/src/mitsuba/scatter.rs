@@ -79,7 +79,8 @@ impl Importer {
                 let rough = plugin.kind == "roughdielectric";
                 let (ior, outside) = self.index(plugin, 1.5046);
                 Dielectric {
-                    ior: (ior / outside).into(),
+                    ior: ior.into(),
+                    outside_ior: Some(outside),
                     color: self.color(plugin, &["specular_transmittance"], 1.0, uv),
                     specular: self.color(plugin, &["specular_reflectance"], 1.0, uv),
                     roughness: self.roughness(plugin, rough, uv),

@@ -151,7 +151,12 @@ impl Importer {
         if absorption == [0.0; 3] {
             return;
         }
-        let clear = scenefile::desc::Dielectric { ior: 1.0.into(), absorption, ..Default::default() };
+        let clear = scenefile::desc::Dielectric {
+            ior: 1.0.into(),
+            outside_ior: Some(1.0),
+            absorption,
+            ..Default::default()
+        };
         let name = free_name(&self.desc.materials, "medium");
         self.desc.materials.insert(name.clone(), Sourced::at(clear.into(), plugin.span));
         let material = MaterialRef::Named(Sourced::at(name, plugin.span));

@@ -9,8 +9,8 @@ use crate::matrix::{Matrix, narrow, unit};
 use crate::report::Report;
 
 /// The sun and sky of `sunsky` (version 3, z up) and of `sun`, `sky` and `sunsky` (version 0.6, y up), without the albedo of a
-/// ground that is a colour. `None`: the sun's direction has no length.
-pub(super) fn sun_sky(report: &mut Report, plugin: &Plugin, place: &Matrix) -> Option<SunSky> {
+/// ground that is a colour. `mirror`: our world from Mitsuba's. `None`: the sun's direction has no length.
+pub(super) fn sun_sky(report: &mut Report, plugin: &Plugin, mirror: &Matrix) -> Option<SunSky> {
     let y_up = plugin.old;
     let mut number = |name: &str, default: f64| plugin.number_or(report, name, default);
     let turbidity = number("turbidity", 3.0).clamp(1.7, 10.0);
@@ -41,22 +41,26 @@ pub(super) fn sun_sky(report: &mut Report, plugin: &Plugin, place: &Matrix) -> O
     // Ours has +y up; a z that is up goes there.
     let upright =
         Matrix([[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, -1.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]]);
-    let place = if y_up { *place } else { place.after(&upright) };
-    let to_ours = |[x, y, z]: [f64; 3]| if y_up { [x, y, z] } else { [x, z, -y] };
-    let direction = given.map(to_ours).unwrap_or_else(|| {
-        let (elevation, azimuth) = time.sun();
-        let (se, ce) = elevation.sin_cos();
-        let (sa, ca) = azimuth.sin_cos();
-        // Clockwise from north, which is −z in version 0.6 (east: +x) and −x in version 3 (east: −y).
-        if y_up { [sa * ce, se, -ca * ce] } else { to_ours([-ca * ce, -sa * ce, se]) }
-    });
+    let place = plugin.place(report, "to_world");
+    let place = if y_up { place } else { place.after(&upright) };
+    let direction = match given {
+        // That is one of the world.
+        Some(direction) => place.inverse()?.vector(direction),
+        None => {
+            let (elevation, azimuth) = time.sun();
+            let (se, ce) = elevation.sin_cos();
+            let (sa, ca) = azimuth.sin_cos();
+            // Clockwise from north, which is −z in version 0.6 (east: +x) and −x in version 3 (east: −y, up: z).
+            if y_up { [sa * ce, se, -ca * ce] } else { [-ca * ce, se, sa * ce] }
+        }
+    };
     Some(SunSky {
         sun_direction: narrow(direction),
         turbidity: turbidity as f32,
         sun_scale: sun.max(0.0) as f32 / SunSky::OVER_MITSUBA,
         sun_angle: (aperture / 2.0) as f32,
         sky_scale: sky.max(0.0) as f32 / SunSky::OVER_MITSUBA,
-        transform: place.steps(),
+        transform: mirror.after(&place).steps(),
         ..SunSky::default()
     })
 }

@@ -262,6 +262,7 @@ impl<'d> Library<'d> {
             desc::MaterialKind::Mirror { color } => MaterialKind::Mirror { color: self.color(color) },
             desc::MaterialKind::Dielectric(m) => MaterialKind::Dielectric(DielectricMaterial {
                 ior: self.ior(&m.ior),
+                outside: m.outside_ior.unwrap_or(0.0),
                 color: self.color(&m.color),
                 specular: self.color(&m.specular),
                 roughness: self.roughness(&m.roughness),

@@ -90,9 +90,11 @@ impl Material {
     #[inline]
     pub fn medium(&self, id: MaterialId) -> Option<Medium> {
         match &self.kind {
-            MaterialKind::Dielectric(d) => Some(Medium { material: id, ior: d.ior, priority: d.priority }),
+            MaterialKind::Dielectric(d) => {
+                Some(Medium { material: id, ior: d.ior, outside: d.outside, priority: d.priority })
+            }
             MaterialKind::Principled(p) if p.is_solid => {
-                Some(Medium { material: id, ior: p.ior, priority: p.priority })
+                Some(Medium { material: id, ior: p.ior, outside: 0.0, priority: p.priority })
             }
             _ => None,
         }

@@ -18,6 +18,8 @@ fn is_one(factor: ColorSource) -> bool {
 pub struct DielectricMaterial {
     /// Refractive index.
     pub ior: f32,
+    /// As [`Medium::outside`](crate::Medium::outside).
+    pub outside: f32,
     /// Transmittance of one crossing.
     pub color: ColorSource,
     /// Factor of what is reflected.

@@ -125,6 +125,9 @@ impl Default for ThinFilm {
 pub struct Dielectric {
     /// Refractive index.
     pub ior: Ior,
+    /// The index before the surface, whatever it lies in: then the surface by itself decides how light is refracted there, as
+    /// interfaces of other programs do. Absent: that of the solid which the surface lies in.
+    pub outside_ior: Option<f32>,
     /// Factor on what is transmitted at each crossing, 0..=1.
     pub color: ColorDesc,
     /// Factor on what is reflected, 0..=1.
@@ -145,6 +148,7 @@ impl Default for Dielectric {
     fn default() -> Self {
         Self {
             ior: 1.5.into(),
+            outside_ior: None,
             color: 1.0.into(),
             specular: 1.0.into(),
             roughness: Roughness::default(),

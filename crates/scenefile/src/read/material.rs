@@ -103,6 +103,7 @@ fn kind(report: &mut Report, r: &Reader<'_>, variant: &str) -> Option<MaterialKi
 
 fn dielectric(report: &mut Report, r: &Reader<'_>) -> Option<Dielectric> {
     let ior = r.ior(report, "ior");
+    let outside_ior = r.optional_number(report, "outside_ior");
     let color = r.color_desc(report, "color");
     let specular = r.color_desc(report, "specular");
     let roughness = roughness(report, r);
@@ -112,6 +113,7 @@ fn dielectric(report: &mut Report, r: &Reader<'_>) -> Option<Dielectric> {
     let priority = r.integer(report, "priority");
     Some(Dielectric {
         ior: ior?,
+        outside_ior: outside_ior?,
         color: color?,
         specular: specular?,
         roughness: roughness?,

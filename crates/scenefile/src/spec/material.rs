@@ -241,6 +241,13 @@ pub const MATERIALS: Section = Section {
                             Number(1.5),
                             "The refractive index, or \"water\", \"glass\", \"N-BK7\", \"diamond\", …",
                         ),
+                        key(
+                            "outside_ior",
+                            Kind::Number(closed(0.1, 10.0)),
+                            "",
+                            Absent("that of the solid which it lies in"),
+                            "The index before the surface, whatever it lies in: for surfaces that are interfaces by themselves.",
+                        ),
                         factor("color", 1.0, "A factor on the light that passes the surface."),
                         SPECULAR,
                         FACETS,

@@ -159,6 +159,7 @@ fn kind_fields(f: &mut Fields, kind: &MaterialKind) {
         }
         MaterialKind::Dielectric(m) => {
             f.ior("ior", &m.ior);
+            f.optional_number("outside_ior", m.outside_ior);
             f.color("color", &m.color);
             f.color("specular", &m.specular);
             roughness(f, &m.roughness);
