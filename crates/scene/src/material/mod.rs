@@ -130,7 +130,7 @@ impl Material {
         let ns = match (self.normal_map, self.bump_map) {
             (None, None) if self.mirrors && hit.ns != hit.ng => glossy_normal(hit.ns, hit.ng, wo, eta),
             (None, None) => facing(hit.ns, hit.ng, wo),
-            _ => self.bent_normal(&{ *hit }, wo, lookup),
+            _ => self.bent_normal(&{ *hit }, wo, eta, lookup),
         };
         let frame =
             if self.oriented { self.oriented_frame(&{ *hit }, ns, lookup) } else { Frame::from_z(ns) };

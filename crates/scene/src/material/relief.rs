@@ -67,7 +67,13 @@ pub(super) fn glossy_normal(ns: Vec3, ng: Vec3, wo: Vec3, eta: f32) -> Vec3 {
 impl Material {
     /// The shading normal under normal map and bump map, as a ray along `wo` may see it.
     #[inline(never)]
-    pub(super) fn bent_normal(&self, hit: &SurfaceInteraction, wo: Vec3, lookup: &Lookup<'_>) -> Vec3 {
+    pub(super) fn bent_normal(
+        &self,
+        hit: &SurfaceInteraction,
+        wo: Vec3,
+        eta: f32,
+        lookup: &Lookup<'_>,
+    ) -> Vec3 {
         let at = TexturePoint::of_hit(hit, lookup.footprint, lookup.of);
         let mut ns = hit.ns;
         if let Some((texture, strength)) = self.normal_map {
@@ -81,7 +87,7 @@ impl Material {
         if c < BENT_COSINE {
             ns = (ns + hit.ng * (BENT_COSINE - c)).normalize();
         }
-        with_valid_mirror(ns, hit.ng, wo)
+        if self.mirrors { glossy_normal(ns, hit.ng, wo, eta) } else { facing(ns, hit.ng, wo) }
     }
 
     /// The shading frame whose x is the tangent, turned as the material says.
