@@ -255,7 +255,7 @@ pub enum NoiseKind {
     Fbm,
     /// The same of absolute values (turbulence).
     Wrinkled,
-    /// Waves on water in changing wind, ≥ 0.
+    /// Waves on water in changing wind, about 0.
     Windy,
     /// A ramp of marble's colours along y, shaken by fBm.
     Marble {

@@ -192,7 +192,7 @@ pub const TEXTURES: Section = Section {
             },
             Variant {
                 name: "windy",
-                doc: "Noise in space, at least 0: waves on water in changing wind.",
+                doc: "Noise in space, about 0: waves on water in changing wind.",
                 keys: &[PLACE],
                 example: "[textures.waves]\nkind = \"windy\"\n",
             },
