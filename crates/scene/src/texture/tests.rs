@@ -359,3 +359,39 @@ fn far_coordinates_do_not_panic() {
         let _ = t.evaluate(&at(0.0, 0.0, f32::NAN));
     }
 }
+
+#[test]
+fn damaged_files_are_errors_or_pictures() {
+    use sampling::{Domain, Sampler};
+    let image = ImageBuffer::from_fn(9, 7, |x, y| Rgb([(x * 20) as u8, (y * 30) as u8, 7]));
+    let bytes = DynamicImage::ImageRgb8(image);
+    let floats = DynamicImage::ImageRgb32F(bytes.to_rgb32f());
+    let mut files: Vec<Vec<u8>> =
+        [ImageFormat::Png, ImageFormat::Jpeg, ImageFormat::Tiff, ImageFormat::WebP, ImageFormat::Bmp]
+            .into_iter()
+            .chain([ImageFormat::Pnm, ImageFormat::Tga])
+            .map(|format| written(bytes.clone(), format))
+            .collect();
+    files.extend([ImageFormat::Hdr, ImageFormat::OpenExr].map(|format| written(floats.clone(), format)));
+    let mut pfm = b"PF\n3 2\n-1.0\n".to_vec();
+    pfm.extend([0x3f; 72]);
+    files.push(pfm);
+    for (kind, whole) in files.iter().enumerate() {
+        let mut decoded = 0;
+        for trial in 0..150 {
+            let mut s = Sampler::new(kind as u64, trial, Domain::Other, 0);
+            let mut file = whole.clone();
+            // Bytes changed, most often in the header, or the end cut off.
+            for _ in 0..1 + s.next_u32() % 4 {
+                let within = if s.next_u32() % 4 == 0 { file.len() } else { file.len().min(64) };
+                let place = s.next_u32() as usize % within;
+                file[place] = [0, 0xff, 0x7f, s.next_u32() as u8][s.next_u32() as usize % 4];
+            }
+            if s.next_u32() % 4 == 0 {
+                file.truncate(s.next_u32() as usize % file.len());
+            }
+            decoded += u32::from(Picture::from_bytes(&file, "x.tga", Encoding::Srgb, Wanted::Both).is_ok());
+        }
+        assert!(decoded < 150, "{kind}: none of the damage is noticed");
+    }
+}
