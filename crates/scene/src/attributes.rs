@@ -4,6 +4,7 @@
 use math::{PI, Transform, Vec2, Vec3};
 use mesh::TriangleMesh;
 
+use crate::interaction::TURNED;
 use crate::scene::Outer;
 use crate::{Object, Scene, Shape};
 
@@ -53,6 +54,7 @@ impl Scene {
     /// The piece of an object, by its number in hits, that a triangle of it is.
     #[inline(never)]
     fn attributes(&self, object: u32, prim: u32) -> Option<Attributes<'_>> {
+        let object = object & !TURNED;
         let (shape, transform) = match self.outer.get(object as usize) {
             Some(Outer::Object(object)) => (&object.shape, None),
             Some(Outer::Instance { .. }) => return None,

@@ -6,6 +6,7 @@ use color::{LaneBasis, Lanes};
 use math::{Bounds3, Ray, Transform, Vec3};
 
 use crate::attributes::Owner;
+use crate::interaction::TURNED;
 use crate::light::{DirectPicker, LeSample, LiSample, LightHit, LightPicker};
 use crate::material::{Lookup, Place};
 use crate::shape::to_world;
@@ -396,7 +397,8 @@ fn placed(
     let local =
         Ray { origin: inverse.point(ray.origin), direction: inverse.vector(ray.direction), t_max: ray.t_max };
     let surface = to_world(object.interaction(&local, hit), render_from_object);
-    SurfaceInteraction { material: material.unwrap_or(surface.material), object: number, ..surface }
+    let object = number | (surface.object & TURNED);
+    SurfaceInteraction { material: material.unwrap_or(surface.material), object, ..surface }
 }
 
 /// Bytes of the pictures, each counted once.

@@ -4,6 +4,7 @@ use math::{PI, Ray, Transform, Vec2, Vec3, gamma};
 use mesh::TriangleMesh;
 
 use crate::attributes::{disk_uv, sphere_uv};
+use crate::interaction::TURNED;
 use crate::{LightId, MaterialId, SurfaceInteraction};
 
 /// Geometry of an object, in the space of the BVH that holds it.
@@ -81,7 +82,6 @@ impl Object {
             t: hit.t,
             material: self.material,
             light: self.light,
-            flipped: false,
             prim: hit.prim,
             object: hit.geom,
         }
@@ -188,7 +188,9 @@ fn sphere(
     s.p_error = radius * gamma(5) + s.p.abs().max_element() * gamma(2);
     s.ng = if flipped { -n } else { n };
     s.ns = s.ng;
-    s.flipped = flipped;
+    if flipped {
+        s.object |= TURNED;
+    }
     s.uv = sphere_uv(n);
     s.dpdu = Vec3::new(-n.z, 0.0, n.x);
     s.uv_per_length = 1.0 / (std::f32::consts::SQRT_2 * PI * radius);

@@ -19,6 +19,7 @@ use scenefile::desc::{
 use scenefile::{Diagnostic, Sourced, Span};
 
 use crate::camera::{CameraError, Fov, Lens, Side};
+use crate::interaction::TURNED;
 use crate::light::{DirectPicker, LightPicker};
 use crate::scene::{CameraMedia, Group, LightTexture, Outer, light_factor, media_at};
 use crate::{
@@ -530,7 +531,7 @@ fn number_instances(outer: &mut [Outer], groups: &[Group]) -> Vec<(u32, u32)> {
             *first = next;
             numbers.push((next, place as u32));
             // More than can be numbered share the last numbers: their second coordinates are then lost.
-            next = next.saturating_add(groups[*group as usize].objects.len() as u32);
+            next = next.saturating_add(groups[*group as usize].objects.len() as u32).min(TURNED - 1);
         }
     }
     numbers
