@@ -1,4 +1,5 @@
 //! Normal maps, bump maps and turned tangents, as rays meet them.
+#![allow(clippy::unwrap_used)] // a test may
 
 use bsdf::TransportMode;
 use math::{Ray, Vec3};

@@ -1,4 +1,5 @@
 //! Textures from a description to the film's first hit.
+#![allow(clippy::unwrap_used)] // a test may
 
 use bsdf::BsdfKind;
 use math::{Ray, Vec3};

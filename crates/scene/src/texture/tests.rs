@@ -383,11 +383,11 @@ fn damaged_files_are_errors_or_pictures() {
             let mut file = whole.clone();
             // Bytes changed, most often in the header, or the end cut off.
             for _ in 0..1 + s.next_u32() % 4 {
-                let within = if s.next_u32() % 4 == 0 { file.len() } else { file.len().min(64) };
+                let within = if s.next_u32().is_multiple_of(4) { file.len() } else { file.len().min(64) };
                 let place = s.next_u32() as usize % within;
                 file[place] = [0, 0xff, 0x7f, s.next_u32() as u8][s.next_u32() as usize % 4];
             }
-            if s.next_u32() % 4 == 0 {
+            if s.next_u32().is_multiple_of(4) {
                 file.truncate(s.next_u32() as usize % file.len());
             }
             decoded += u32::from(Picture::from_bytes(&file, "x.tga", Encoding::Srgb, Wanted::Both).is_ok());
