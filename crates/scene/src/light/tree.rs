@@ -114,7 +114,8 @@ impl Node {
             if cos_in < -SLACK {
                 return 0.0;
             }
-            importance *= cos_in.max(LEAST_COSINE);
+            // Half the bound, half what the middle has: the bound alone makes much of groups along the horizon.
+            importance *= (0.5 * (cos_in + cos.max(0.0))).max(LEAST_COSINE);
         }
         importance
     }
