@@ -60,6 +60,11 @@ impl<'t> Importer<'t> {
     }
 
     fn add_material(&mut self, wanted: &str, material: Material, span: Span) -> String {
+        let mut material = material;
+        if super::ranges::kept(&mut material) {
+            let text = "a material has a value outside of its range";
+            self.report.instead(text, "it is moved to the range's end", span);
+        }
         let key = free_name(&self.desc.materials, if wanted.is_empty() { "material" } else { wanted });
         self.desc.materials.insert(key.clone(), Sourced::at(material, span));
         key

@@ -18,6 +18,7 @@ mod materials;
 mod mesh;
 mod nodes;
 mod pose;
+mod ranges;
 mod textures;
 
 use std::collections::{BTreeSet, HashMap};
