@@ -27,9 +27,11 @@ fn with_file(name: &str, data: &[u8], then: impl FnOnce(&Path)) {
     });
 }
 
-/// Whether a text might name a file outside of its folder: by `..`, or by a slash where a name begins.
+/// Whether a text might name a file outside of its folder: by `..`, by a slash where a name begins, or in letters that stand for
+/// either. A slash before `>` ends an element of XML.
 fn leads_out(data: &[u8]) -> bool {
-    data.windows(2).any(|w| w == b".." || w == b"\"/" || w == b"'/" || w == b"\\u" || w == b"&#")
+    let begins = |w: &[u8]| matches!(w, [b'"' | b'\'' | b' ' | b'\t', b'/', last] if *last != b'>');
+    data.windows(3).any(begins) || data.windows(2).any(|w| w == b".." || w == b"\\u" || w == b"&#")
 }
 
 /// What is read well is written as TOML that reads the same.
@@ -74,6 +76,42 @@ pub fn toml(data: &[u8]) {
 /// A pbrt scene.
 pub fn pbrt(data: &[u8]) {
     scene("scene.pbrt", data);
+}
+
+/// A Mitsuba scene.
+pub fn mitsuba(data: &[u8]) {
+    scene("scene.xml", data);
+}
+
+/// A mesh in Mitsuba's own format.
+pub fn serialized(data: &[u8]) {
+    with_file("mesh.serialized", data, |path| {
+        let text = "<scene version=\"3.0.0\"><sensor type=\"perspective\"/><shape type=\"serialized\">\
+                    <string name=\"filename\" value=\"mesh.serialized\"/></shape></scene>";
+        let scene = path.with_file_name("serialized.xml");
+        std::fs::write(&scene, text).expect("a file in the folder");
+        let _ = import::load(&scene, &[]).render();
+    });
+}
+
+/// A mesh as a scene, with its materials.
+pub fn model(data: &[u8]) {
+    scene("scene.obj", data);
+}
+
+/// Materials of a mesh.
+pub fn mtl(data: &[u8]) {
+    if leads_out(data) {
+        return;
+    }
+    with_file("a.mtl", data, |path| {
+        let _ = import::load(&path.with_file_name("a.obj"), &[]).render();
+    });
+}
+
+/// Light by direction: IES or EULUMDAT.
+pub fn photometry(data: &[u8]) {
+    let _ = photometry::read(data);
 }
 
 /// glTF as text.

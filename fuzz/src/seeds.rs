@@ -22,6 +22,11 @@ fn of(target: &str) -> Vec<Vec<u8>> {
     match target {
         "toml" => toml(),
         "pbrt" => texts(&PBRT),
+        "mitsuba" => texts(&[MITSUBA]),
+        "serialized" => vec![serialized()],
+        "model" => texts(&OBJ),
+        "mtl" => texts(&[MTL]),
+        "photometry" => texts(&[IES, LDT]),
         "gltf" => vec![GLTF.as_bytes().to_vec()],
         "glb" => vec![glb()],
         "obj" => texts(&OBJ),
@@ -106,6 +111,47 @@ const PBRT: [&str; 6] = [
      Texture \"p\" \"float\" \"dots\" \"string mapping\" \"planar\"\nTexture \"q\" \"spectrum\" \"marble\"\nTexture \"s\" \"float\" \"scale\" \"texture tex\" \"p\" \"float scale\" 2\n\
      Material \"diffuse\" \"texture reflectance\" \"q\" \"texture displacement\" \"s\"\nShape \"sphere\" \"float alpha\" .5\n",
 ];
+
+const MITSUBA: &str = "<scene version=\"3.0.0\"><default name=\"d\" value=\"5\"/><integrator type=\"path\"><integer name=\"max_depth\" value=\"$d\"/></integrator>\n\
+     <sensor type=\"perspective\"><float name=\"fov\" value=\"40\"/><transform name=\"to_world\"><lookat origin=\"0,1,5\" target=\"0 0 0\" up=\"0 1 0\"/></transform>\n\
+     <film type=\"hdrfilm\"><integer name=\"width\" value=\"16\"/><integer name=\"height\" value=\"9\"/><rfilter type=\"tent\"/></film></sensor>\n\
+     <bsdf type=\"twosided\" id=\"a\"><bsdf type=\"roughconductor\"><string name=\"material\" value=\"Au\"/><float name=\"alpha\" value=\".1\"/></bsdf></bsdf>\n\
+     <bsdf type=\"mask\" id=\"b\"><float name=\"opacity\" value=\".5\"/><bsdf type=\"diffuse\"><texture type=\"bitmap\" name=\"reflectance\"><string name=\"filename\" value=\"a.png\"/></texture></bsdf></bsdf>\n\
+     <shape type=\"sphere\"><ref id=\"a\"/><emitter type=\"area\"><rgb name=\"radiance\" value=\"1 2 3\"/></emitter></shape>\n\
+     <shape type=\"ply\"><string name=\"filename\" value=\"a.ply\"/><transform name=\"to_world\"><scale value=\"2\"/><rotate x=\"1\" angle=\"30\"/></transform><ref id=\"b\"/></shape>\n\
+     <emitter type=\"envmap\"><string name=\"filename\" value=\"a.exr\"/></emitter><emitter type=\"spot\"/></scene>";
+
+const MTL: &str = "newmtl b\nKd 1 0.5 0.25\nKs 0.1 0.1 0.1\nNs 50\nNi 1.5\nd 0.5\nillum 2\nmap_Kd -s 2 2 1 a.png\nKe 1 1 1\nPr 0.25\nPm 1\n";
+
+const IES: &str = "IESNA:LM-63-1995\n[TEST] a\nTILT=NONE\n1 1000 1 3 2 1 1 0 0 0\n1 1 50\n0 45 90\n0 90\n100 50 0\n90 40 0\n";
+
+const LDT: &str = "maker\n1\n0\n2\n90\n3\n45\nreport\nname\nnumber\nfile\ndate\n100\n100\n50\n50\n50\n0\n0\n0\n0\n100\n80\n1\n0\n1\n\
+     1\nlamp\n1000\n3000\n1B\n20\n1\n1\n1\n1\n1\n1\n1\n1\n1\n1\n0\n90\n0\n45\n90\n100\n50\n0\n90\n40\n0\n";
+
+/// One triangle (Mitsuba 0.6, documentation of `serialized`): head, deflated flags, name and numbers, and the place of each mesh.
+fn serialized() -> Vec<u8> {
+    let mut plain = 0x1000u32.to_le_bytes().to_vec();
+    plain.extend(b"a\0");
+    plain.extend(3u64.to_le_bytes());
+    plain.extend(1u64.to_le_bytes());
+    [0f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].iter().for_each(|x| plain.extend(x.to_le_bytes()));
+    (0u32..3).for_each(|i| plain.extend(i.to_le_bytes()));
+    let mut file = [0x1c, 0x04, 4, 0].to_vec();
+    // One stored block of deflate in a zlib wrapper.
+    let length = plain.len() as u16;
+    file.extend([0x78, 0x01, 0x01]);
+    file.extend(length.to_le_bytes());
+    file.extend((!length).to_le_bytes());
+    file.extend(&plain);
+    let (a, b) = plain.iter().fold((1u32, 0u32), |(a, b), x| {
+        let a = (a + u32::from(*x)) % 65521;
+        (a, (b + a) % 65521)
+    });
+    file.extend((b << 16 | a).to_be_bytes());
+    file.extend(0u64.to_le_bytes());
+    file.extend(1u32.to_le_bytes());
+    file
+}
 
 /// One triangle, its buffer within.
 const GLTF: &str = "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0,\"translation\":[1,2,3]}],\
