@@ -1,4 +1,6 @@
-use std::fs;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
 
 use color::Lanes;
 use math::{Frame, Transform, Vec3};
@@ -88,16 +90,17 @@ fn place(steps: &[TransformStep]) -> Result<(Vec3, Transform, Frame), String> {
 }
 
 fn profile(
-    path: &std::path::Path,
+    path: &Path,
     steps: &[TransformStep],
     amount: ProfileAmount,
 ) -> Result<(Vec3, ProfileShape, Vec<Note>), String> {
     let (position, _, frame) = place(steps)?;
-    let size = fs::metadata(path).map_err(|e| e.to_string())?.len();
-    if size > MOST_BYTES {
-        return Err(format!("it has {size} bytes"));
+    let mut bytes = Vec::new();
+    let open = File::open(path).and_then(|file| file.take(MOST_BYTES + 1).read_to_end(&mut bytes));
+    open.map_err(|e| e.to_string())?;
+    if bytes.len() as u64 > MOST_BYTES {
+        return Err(format!("it has more than {MOST_BYTES} bytes"));
     }
-    let bytes = fs::read(path).map_err(|e| e.to_string())?;
     let file = photometry::read(&bytes).map_err(|e| e.to_string())?;
     let lumens = file.web.lumens();
     if !(lumens > 0.0 && lumens.is_finite()) {
