@@ -185,6 +185,8 @@ impl Importer {
             self.report.error("out-of-range", text, plugin.span);
             return None;
         }
+        let text = "a projector whose field of view spans its picture's width is not rendered as it is";
+        self.report.instead(text, "it spans the shorter side", plugin.span);
         let intensity = [scale as f32; 3];
         Some(LightKind::Projector { source, fov: fov as f32, intensity, transform: place.steps() })
     }
