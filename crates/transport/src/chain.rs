@@ -105,7 +105,7 @@ impl EyeChain {
             (true, false) => 0.0,
         };
         let back = f64::from(z.bsdf.pdf_w(li.wi, z.wo, TransportMode::Importance));
-        let start = LightHit { p: li.p, ng: front(scene, light, li.n, w), prim: li.prim };
+        let start = scene.light(light).hit_of_li(li);
         let emitted = emission_density(scene, light, &start, w);
         self.acceptance * self.ratio * cosines(z, li.wi) * back * emitted * at_light
             / (f64::from(pmf) * f64::from(li.pdf_w))
@@ -195,8 +195,7 @@ impl LightChain {
             return if self.is_infinite { pmf } else { pmf * squared(z.hit.t) };
         }
         let le = &self.start.le;
-        let hit = LightHit { p: le.p, ng: front(scene, light, le.n, le.w), prim: le.prim };
-        let hit = (!self.is_infinite).then_some(hit);
+        let hit = (!self.is_infinite).then(|| scene.light(light).hit_of_le(le));
         pmf * f64::from(scene.light(light).pdf_li_w(z.hit.p, z.wo, hit))
     }
 
@@ -220,11 +219,6 @@ fn cosines(z: &Vertex, out: Vec3) -> f64 {
 fn emission_density(scene: &Scene, light: LightId, start: &LightHit, w: Vec3) -> f64 {
     let (pdf_a, pdf_w) = scene.light(light).pdf_le_toward(scene.targets(), start, w);
     f64::from(scene.caustic_picker().pmf(light.0 as usize)) * f64::from(pdf_a) * f64::from(pdf_w)
-}
-
-/// The front's normal of a light that shines along `w`, from the one on that side.
-fn front(scene: &Scene, light: LightId, n: Vec3, w: Vec3) -> Vec3 {
-    if scene.light(light).emitted(n, w).is_zero() { -n } else { n }
 }
 
 #[inline]

@@ -5,6 +5,7 @@ use sampling::Sampler;
 use scene::light::LightHit;
 use scene::{LightId, Scene};
 
+use crate::direct::{direct_weighted, light_hit};
 use crate::mis::{End, connection_weight, direct_weight, emission_weight};
 use crate::project::reflected;
 use crate::subpath::{EyeEnd, PathVertex, density, geometric_cos, merging, survival};
@@ -63,42 +64,24 @@ fn facing(vertex: &Vertex, w: Vec3) -> Vec3 {
 pub fn connect_light(scene: &Scene, eye: &PathVertex, eta: f64, sampler: &mut Sampler) -> Option<Direct> {
     let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
     let vertex = &eye.vertex;
-    let (index, pmf, u_pick) = scene.direct_picker().sample(&vertex.receiver(), u_light);
-    if pmf == 0.0 {
-        return None;
-    }
-    let light = LightId(index as u32);
-    let li = scene.sample_li(light, vertex.hit.p, vertex.hit.ng, u_pick, u)?;
-    let f = vertex.bsdf.eval(vertex.wo, li.wi, TransportMode::Radiance);
-    if f.is_zero() || li.radiance.is_zero() {
-        return None;
-    }
-    let found = LightDensities::of_direct(scene, light, pmf, &li);
-    let forward = density(vertex, vertex.wo, li.wi, TransportMode::Radiance);
-    let end = End {
-        mis: eye.mis,
-        merging: merging(&vertex.bsdf),
-        reverse: density(vertex, li.wi, vertex.wo, TransportMode::Importance),
-        reached: found.emitted / found.direct * geometric_cos(vertex, li.wi),
-    };
-    let weight = direct_weight(eta, forward * found.cos / found.direct, &end);
-    let ray = if li.distance.is_finite() {
-        vertex.hit.spawn_ray_to(li.p, li.p_error, li.n)
-    } else {
-        vertex.hit.spawn_ray(li.wi)
-    };
-    if scene.occluded(&ray) {
-        return None;
-    }
-    let factor = vertex.bsdf.abs_cos(li.wi) * weight / (pmf * li.pdf_w);
-    let left = vertex.transmittance(scene, li.wi, li.distance);
-    Some(Direct { light, radiance: f * li.radiance * left * factor })
+    direct_weighted(scene, vertex, u_light, u, |sampled| {
+        let wi = sampled.li.wi;
+        let found = LightDensities::of_direct(scene, sampled.light, sampled.pmf, &sampled.li);
+        let forward = density(vertex, vertex.wo, wi, TransportMode::Radiance);
+        let end = End {
+            mis: eye.mis,
+            merging: merging(&vertex.bsdf),
+            reverse: density(vertex, wi, vertex.wo, TransportMode::Importance),
+            reached: found.emitted / found.direct * geometric_cos(vertex, wi),
+        };
+        direct_weight(eta, forward * found.cos / found.direct, &end)
+    })
 }
 
 /// The light that the surface at `vertex` is, seen from the eye path's last vertex.
 pub fn emission_against_all(scene: &Scene, end: &EyeEnd, vertex: &Vertex, eta: f64) -> Option<Emission> {
     let light = vertex.hit.light?;
-    let hit = LightHit { p: vertex.hit.p, ng: vertex.hit.authored_ng(), prim: vertex.hit.prim };
+    let hit = light_hit(vertex);
     let radiance = scene.emitted(light, &hit, vertex.wo);
     let weight = weight_of(scene, light, end, Some(hit), eta);
     (!radiance.is_zero()).then_some(Emission { light, radiance, weight })

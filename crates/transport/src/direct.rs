@@ -76,14 +76,16 @@ pub fn direct_in_chain(
 }
 
 /// A light that was sampled.
-struct Sampled {
-    light: LightId,
-    pmf: f32,
-    li: LiSample,
+pub(crate) struct Sampled {
+    pub light: LightId,
+    /// Its probability.
+    pub pmf: f32,
+    pub li: LiSample,
 }
 
+/// [`direct`] from given numbers, weighted by a function of what was sampled.
 #[inline]
-fn direct_weighted(
+pub(crate) fn direct_weighted(
     scene: &Scene,
     vertex: &Vertex,
     u_light: f32,
@@ -137,7 +139,8 @@ pub fn emission_at(walk: &Walk<'_>, vertex: &Vertex) -> Option<Emission> {
     emission_of(light, light_hit(vertex), walk.scene(), walk.last().copied(), vertex.wo)
 }
 
-fn light_hit(vertex: &Vertex) -> LightHit {
+/// The point of the light that the surface at `vertex` is.
+pub(crate) fn light_hit(vertex: &Vertex) -> LightHit {
     LightHit { p: vertex.hit.p, ng: vertex.hit.authored_ng(), prim: vertex.hit.prim }
 }
 

@@ -2,7 +2,7 @@ use bsdf::TransportMode;
 use color::Lanes;
 use math::{Ray, offset_ray_origin};
 use sampling::Sampler;
-use scene::light::{LeSample, LightHit};
+use scene::light::LeSample;
 use scene::{LightId, Scene};
 
 use crate::{LightStart, Walk};
@@ -22,6 +22,14 @@ pub struct EmittedPhoton<'s> {
 ///
 /// Φ = Le·cosθ / (p_light · p_area · p_direction) (Jensen 2001, §5.1).
 pub fn emit<'s>(scene: &'s Scene, sampler: &mut Sampler) -> Option<EmittedPhoton<'s>> {
+    emit_with_start(scene, sampler).map(|(emitted, _)| emitted)
+}
+
+/// [`emit`], and the start that weights are made of.
+pub(crate) fn emit_with_start<'s>(
+    scene: &'s Scene,
+    sampler: &mut Sampler,
+) -> Option<(EmittedPhoton<'s>, LightStart)> {
     let (u_light, u_pos, u_dir) = (sampler.next_1d(), sampler.next_2d(), sampler.next_2d());
     let (index, pmf, u_pick) = scene.global_picker().sample(u_light);
     if pmf == 0.0 {
@@ -29,7 +37,8 @@ pub fn emit<'s>(scene: &'s Scene, sampler: &mut Sampler) -> Option<EmittedPhoton
     }
     let id = LightId(index as u32);
     let le = scene.sample_le(id, u_pick, u_pos, u_dir)?;
-    start(scene, id, &le, pmf * le.pdf_a * le.pdf_w)
+    let emitted = start(scene, id, &le, pmf * le.pdf_a * le.pdf_w)?;
+    Some((emitted, LightStart { light: id, pmf, le }))
 }
 
 /// A photon aimed at the scene's specular objects. Its flux is exact: the density is that of the aimed direction.
@@ -75,9 +84,7 @@ pub fn emit_mixed<'s>(scene: &'s Scene, aimed: f32, sampler: &mut Sampler) -> Op
     } else {
         scene.sample_le(id, u_pick, u_pos, u_dir)
     }?;
-    // The sample's normal lies on the side of its direction: of a light whose front does not shine there, the back.
-    let ng = if light.emitted(le.n, le.w).is_zero() { -le.n } else { le.n };
-    let start_at = LightHit { p: le.p, ng, prim: le.prim };
+    let start_at = light.hit_of_le(&le);
     let own = pmf * le.pdf_a * le.pdf_w;
     let (other_pmf, (other_a, other_w)) = if toward {
         (scene.global_picker().pmf(index), light.pdf_le(&start_at, le.w))

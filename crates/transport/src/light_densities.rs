@@ -29,11 +29,7 @@ impl LightDensities {
             let d2 = if light.is_infinite() { 1.0 } else { f64::from(le.p.distance_squared(receiver)) };
             return Self { direct: pmf * d2, emitted, cos: 0.0 };
         }
-        let hit = (!light.is_infinite()).then(|| LightHit {
-            p: le.p,
-            ng: front(scene, id, le.n, le.w),
-            prim: le.prim,
-        });
+        let hit = (!light.is_infinite()).then(|| light.hit_of_le(le));
         let cos = f64::from(le.cos);
         let direct = pmf * f64::from(light.pdf_li_w(receiver, -le.w, hit)) * cos;
         Self { direct, emitted, cos }
@@ -43,15 +39,15 @@ impl LightDensities {
     pub fn of_direct(scene: &Scene, id: LightId, pmf: f32, li: &LiSample) -> Self {
         let light = scene.light(id);
         let w = -li.wi;
-        let ng = front(scene, id, li.n, w);
-        let (pdf_a, pdf_w) = light.pdf_le(&LightHit { p: li.p, ng, prim: li.prim }, w);
+        let hit = light.hit_of_li(li);
+        let (pdf_a, pdf_w) = light.pdf_le(&hit, w);
         let emitted = emission_pmf(scene, id) * f64::from(pdf_a) * f64::from(pdf_w);
         let pmf = f64::from(pmf);
         if li.is_delta {
             let d2 = if light.is_infinite() { 1.0 } else { f64::from(li.distance).powi(2) };
             return Self { direct: pmf * d2, emitted, cos: 0.0 };
         }
-        let cos = if light.is_infinite() { 1.0 } else { f64::from(ng.dot(w).abs()) };
+        let cos = if light.is_infinite() { 1.0 } else { f64::from(hit.ng.dot(w).abs()) };
         Self { direct: pmf * f64::from(li.pdf_w) * cos, emitted, cos }
     }
 
@@ -88,9 +84,4 @@ impl LightDensities {
 
 fn emission_pmf(scene: &Scene, id: LightId) -> f64 {
     f64::from(scene.global_picker().pmf(id.0 as usize))
-}
-
-/// The normal of a light's front, from that on the side of `w`.
-fn front(scene: &Scene, id: LightId, n: Vec3, w: Vec3) -> Vec3 {
-    if scene.light(id).emitted(n, w).is_zero() { -n } else { n }
 }

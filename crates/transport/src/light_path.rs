@@ -1,11 +1,11 @@
-use bsdf::{Lobes, TransportMode};
+use bsdf::Lobes;
 use color::Lanes;
-use math::{Ray, offset_ray_origin};
 use sampling::Sampler;
 use scene::{LightId, Scene};
 
+use crate::emit::emit_with_start;
 use crate::subpath::{PathVertex, Subpath};
-use crate::{Connections, LightLayer, Observer, PathClass, PathEnd, Walk};
+use crate::{Connections, LightLayer, Observer, PathClass, PathEnd};
 
 /// Which events a light path has had, as far as the layers of whole paths depend on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -121,26 +121,13 @@ fn follow(
     PathEnd::Escaped
 }
 
-/// Φ = Le·cosθ / (p_light · p_area · p_direction) (Jensen 2001, §5.1).
 fn start<'s>(
     scene: &'s Scene,
     connections: Connections,
     sampler: &mut Sampler,
 ) -> Option<(LightId, Subpath<'s>)> {
-    let (u_light, u_pos, u_dir) = (sampler.next_1d(), sampler.next_2d(), sampler.next_2d());
-    let (index, pmf, u_pick) = scene.global_picker().sample(u_light);
-    if pmf == 0.0 {
-        return None;
-    }
-    let id = LightId(index as u32);
-    let le = scene.sample_le(id, u_pick, u_pos, u_dir)?;
-    let flux = le.radiance * (le.cos / (pmf * le.pdf_a * le.pdf_w));
-    if flux.is_zero() {
-        return None;
-    }
-    let ray = Ray::new(offset_ray_origin(le.p, le.p_error, le.n, le.w), le.w);
-    let walk = Walk::new(scene, TransportMode::Importance, ray, flux, scene.light_medium(id));
-    Some((id, Subpath::from_light(walk, id, le, connections)))
+    let (emitted, start) = emit_with_start(scene, sampler)?;
+    Some((start.light, Subpath::from_light(emitted.walk, start.light, start.le, connections)))
 }
 
 #[cfg(test)]

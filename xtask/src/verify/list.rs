@@ -59,11 +59,6 @@ pub const CASES: &[Case] = &[
         5,
     ),
     ignis(
-        "ignis-evaluation/evaluation/mitsuba/plane.xml",
-        "ignis-evaluation/evaluation/references/ref-plane-d1-4096.exr",
-        1,
-    ),
-    ignis(
         "ignis-evaluation/evaluation/mitsuba/room.xml",
         "ignis-evaluation/evaluation/references/ref-room-4096.exr",
         3,

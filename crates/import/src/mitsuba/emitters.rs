@@ -11,6 +11,7 @@ use super::bsdf::Uv;
 use super::plugin::{Plugin, Tag};
 use super::{Importer, sunsky};
 use crate::matrix::narrow;
+use crate::picture;
 use crate::report::nearest;
 
 /// Kinds that are known, for those that are not.
@@ -168,7 +169,7 @@ impl Importer {
         let scale = plugin.number_or(&mut self.report, "scale", 1.0);
         let fov = plugin.number_or(&mut self.report, "fov", 40.0);
         let textures = self.children(plugin, Tag::Texture);
-        plugin.ignore(&["fov_axis", "focal_length", "near_clip", "far_clip", "irradiance"]);
+        plugin.ignore(&["focal_length", "near_clip", "far_clip", "irradiance"]);
         let image: Option<Image> = textures.first().filter(|t| t.kind == "bitmap").and_then(|t| {
             let image = self.image(t, Uv::Down);
             t.finish(&mut self.report);
@@ -185,9 +186,19 @@ impl Importer {
             self.report.error("out-of-range", text, plugin.span);
             return None;
         }
-        let text = "a projector whose field of view spans its picture's width is not rendered as it is";
-        self.report.instead(text, "it spans the shorter side", plugin.span);
-        let intensity = [scale as f32; 3];
+        let file = source.file().map(|file| self.desc.resolve(file));
+        let size = file.and_then(|file| picture::size(&file)).map(|size| size.map(f64::from));
+        let spans_height = plugin.text(&mut self.report, "fov_axis") == Some("y");
+        let fov = match size {
+            // Over the width or the height there, here over the shorter of the two.
+            Some([w, h]) => {
+                let over = if spans_height { h } else { w };
+                2.0 * ((fov.to_radians() / 2.0).tan() * w.min(h) / over).atan().to_degrees()
+            }
+            None => fov,
+        };
+        // The picture is irradiance / π at distance 1 from the pinhole.
+        let intensity = [(scale * std::f64::consts::PI) as f32; 3];
         Some(LightKind::Projector { source, fov: fov as f32, intensity, transform: place.steps() })
     }
 }

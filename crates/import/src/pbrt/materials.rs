@@ -144,6 +144,8 @@ impl Importer {
     pub(super) fn glass(&mut self, params: &Params, remap: Remap) -> Material {
         Dielectric {
             ior: self.index(params, &["eta", "index"], 1.5).into(),
+            // Of pbrt's surfaces each decides by itself.
+            outside_ior: Some(1.0),
             color: self.color(params, "Kt", 1.0),
             specular: self.color(params, "Kr", 1.0),
             roughness: self.roughness(params, "", remap, 0.0),

@@ -107,6 +107,7 @@ impl Importer {
             params.ignore(&["roughness", "uroughness", "vroughness", "remaproughness"]);
             let glass = scenefile::desc::Dielectric {
                 ior: ior.into(),
+                outside_ior: Some(1.0),
                 color: kt,
                 specular: kr,
                 ..Default::default()

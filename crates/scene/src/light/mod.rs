@@ -377,6 +377,24 @@ impl Light {
         }
     }
 
+    /// Where a light path starts on a light that is not at infinity. The sample's normal lies on the side of its direction: of a
+    /// light whose front does not shine there, that is the back.
+    #[inline]
+    pub fn hit_of_le(&self, le: &LeSample) -> LightHit {
+        LightHit { p: le.p, ng: self.front(le.n, le.w), prim: le.prim }
+    }
+
+    /// The point of a light that is not at infinity from which light sampling found light.
+    #[inline]
+    pub fn hit_of_li(&self, li: &LiSample) -> LightHit {
+        LightHit { p: li.p, ng: self.front(li.n, -li.wi), prim: li.prim }
+    }
+
+    /// The front's normal, from that on the side of `w`, along which the light shines.
+    fn front(&self, n: Vec3, w: Vec3) -> Vec3 {
+        if self.emitted(n, w).is_zero() { -n } else { n }
+    }
+
     /// Whether only [`Self::sample_li`] can find it: no ray hits it.
     pub fn is_delta(&self) -> bool {
         matches!(self, Self::Point(_) | Self::Spot(_) | Self::Shaped(_) | Self::Directional(_))
