@@ -50,8 +50,8 @@ fn a_converted_scene_gives_the_same_picture() {
     let said = place.ok(&["render", "a.pbrt", "-q", "-o", "a.exr"]).err;
     assert_eq!(said, "", "nothing in it needs a warning");
     assert_eq!(place.ok(&["convert", "a.pbrt", "b.toml"]).err, "");
-    // The cylinder and the pebble.
-    assert!(place.path("b-meshes/00002.ply").exists() && !place.path("b-meshes/00003.ply").exists());
+    // The cylinder, the lamp (its texture lies on it as pbrt's disks have it) and the pebble.
+    assert!(place.path("b-meshes/00003.ply").exists() && !place.path("b-meshes/00004.ply").exists());
     place.ok(&["render", "b.toml", "-q", "-o", "b.exr"]);
     assert_same(&place, "a.exr", "b.exr");
     // Elsewhere, from elsewhere, file names still lead to the files.
@@ -71,8 +71,14 @@ fn arguments_mean_the_same_and_renders_go_on() {
     place.ok(&[&render[..], &["--passes", "4", "-o", "whole.exr"]].concat());
     assert_eq!(crate::harness::size(&place.path("whole.exr")), (12, 8));
     place.ok(&[&render[..], &["--passes", "2", "-o", "part.exr", "--checkpoint", "a.neph"]].concat());
-    // The checkpoint has all that it needs.
+    // The scene is read again: it must be what it was.
+    place.write("a.pbrt", &PBRT.replace("[9 8 7]", "[9 8 6]"));
+    let other = place.run(&["resume", "a.neph", "--passes", "4", "-q"]);
+    assert!(other.code == Some(2) && other.err.contains("a.pbrt: it was changed"), "{}", other.err);
     std::fs::remove_file(place.path("a.pbrt")).unwrap();
+    let gone = place.run(&["resume", "a.neph", "--passes", "4", "-q"]);
+    assert!(gone.code == Some(2) && gone.err.contains("a.pbrt: it cannot be read"), "{}", gone.err);
+    place.write("a.pbrt", PBRT);
     place.ok(&["resume", "a.neph", "--passes", "4", "-q"]);
     assert_same(&place, "whole.exr", "part.exr");
 }

@@ -100,7 +100,7 @@ fn sun_and_sky_agree_with_path() {
     desc.lights.push(Light::from(LightKind::SunSky(sky)).into());
     let path = brightness(&desc, PATH, 8, 120);
     for integrator in [PHOTON_MAP, IntegratorKind::Sppm, IntegratorKind::Vcm, IntegratorKind::Auto] {
-        let found = brightness(&desc, integrator, 8, 24);
+        let found = brightness(&desc, integrator, 12, 24);
         assert_same_within(integrator.name(), &found, &path, 0.012, 1.08);
     }
 }

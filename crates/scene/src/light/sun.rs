@@ -98,7 +98,7 @@ impl SunLight {
 }
 
 /// Irradiance of the sun on a plane that faces it, W/m² in linear RGB, at an elevation above the horizon in radians (0 below)
-/// through air of a turbidity, moved into [1, 10]. Linear between the elevations and turbidities of [`IRRADIANCE`].
+/// through air of a turbidity, moved into [1, 10]. Linear between the elevations and turbidities of its table.
 pub fn sun_irradiance(elevation: f32, turbidity: f32) -> [f32; 3] {
     if elevation.is_nan() || elevation < 0.0 {
         return [0.0; 3];
