@@ -246,6 +246,17 @@ fn nodes_place_meshes() {
 }
 
 #[test]
+fn points_beyond_all_numbers_are_refused() {
+    let mut bin = Bin::default();
+    let far = bin.vec3(&[0.0, 0.0, 0.0, 1e30, 0.0, 0.0, 0.0, 1e30, 0.0]);
+    let text = bin.scene(&format!(
+        "\"scenes\":[{{\"nodes\":[0]}}],\"nodes\":[{{\"mesh\":0,\"scale\":[1e20,1e20,0]}}],\
+         \"meshes\":[{{\"primitives\":[{{\"attributes\":{{\"POSITION\":{far}}}}}]}}]"
+    ));
+    refused(&Files::new().load(&text), "not placed at finite points");
+}
+
+#[test]
 fn shared_meshes_are_instances() {
     let mut bin = Bin::default();
     bin.vec3(&TRIANGLE);

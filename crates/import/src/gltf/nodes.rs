@@ -209,6 +209,10 @@ impl<'t> Importer<'t> {
             *p = narrow(matrix.point(wide(*p)));
         }
         part.normals = Vec::new();
+        if !part.positions.iter().flatten().all(|x| x.is_finite()) {
+            let text = "a primitive is not placed at finite points";
+            return self.fault(Fault::new("degenerate", text, part.span));
+        }
         // What has no extent at all is how files hide things.
         if part.has_area() {
             let object = self.object(part, name);
