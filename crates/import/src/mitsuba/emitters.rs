@@ -197,6 +197,12 @@ impl Importer {
             }
             None => fov,
         };
+        let text = "the light of a projector is not even on a wall";
+        self.report.instead(
+            text,
+            "its intensity is: it falls by the cube of the cosine to its axis",
+            plugin.span,
+        );
         // The picture is irradiance / π at distance 1 from the pinhole.
         let intensity = [(scale * std::f64::consts::PI) as f32; 3];
         Some(LightKind::Projector { source, fov: fov as f32, intensity, transform: place.steps() })
