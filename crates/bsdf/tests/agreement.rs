@@ -1,6 +1,6 @@
-//! Values of f·|cos θi| that another renderer gives: Mitsuba 3.9.1, variant `scalar_rgb`, radiance mode. Of its
-//! `roughplastic` the mean inner reflectance is taken at 64 angles, which makes the base up to two per cent darker than the
-//! integral does.
+//! Values of f·|cos θi| that another renderer gives: Mitsuba 3.9.1, variant `scalar_rgb`, radiance mode. The base of
+//! its `roughplastic` is up to two per cent darker than the integral makes it, probably by the few angles of which its mean inner
+//! reflectance is taken.
 
 mod common;
 
