@@ -10,6 +10,7 @@ use scenefile::desc::{
     Channel, ColorDesc, ColorSpace, Dielectric, Emission, EmissionAmount, FloatDesc, Image, ImageSource,
     Mapping, Material, Principled, Roughness, Texture, Triple,
 };
+use scenefile::spec::PICTURES;
 use scenefile::{Sourced, Span};
 
 use super::map::Map;
@@ -17,10 +18,6 @@ use super::mtl::Mtl;
 use super::{Importer, Surface, slashed};
 use crate::names::free_name;
 use crate::ply::GREY;
-
-/// Pictures that can be read, by extension.
-const PICTURES: &[&str] =
-    &["png", "jpg", "jpeg", "tif", "tiff", "webp", "bmp", "tga", "ppm", "pgm", "hdr", "exr", "pfm"];
 
 /// How a picture's values are used.
 #[derive(Clone, Copy)]

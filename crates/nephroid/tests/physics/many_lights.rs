@@ -35,14 +35,8 @@ fn hall() -> nephroid::SceneDesc {
     lights.push(LightKind::Environment { radiance: [0.05; 3] }.into());
     let mut desc = scene_of(look([0.0, 0.2, 2.2], [0.0, -1.1, 0.0], 40.0), 16, objects);
     desc.lights = lights.into_iter().map(Into::into).collect();
-    desc.photon_map.photons = 40_000;
-    desc.photon_map.caustic_photons = 40_000;
+    small_maps(&mut desc);
     desc.sppm.photons = Some(30_000);
-    desc.sppm.radius = Some(0.03);
-    desc.sppm.alpha = 1.0;
-    desc.vcm.light_paths = Some(512);
-    desc.vcm.radius = Some(0.02);
-    desc.vcm.alpha = 1.0;
     desc
 }
 

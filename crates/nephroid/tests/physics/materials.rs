@@ -21,14 +21,8 @@ fn room(things: Vec<Object>) -> SceneDesc {
     ];
     objects.extend(things);
     let mut desc = scene_of(look([0.0, 0.0, 2.9], [0.0, -0.3, 0.0], 60.0), 16, objects);
-    desc.photon_map.photons = 40_000;
-    desc.photon_map.caustic_photons = 40_000;
+    small_maps(&mut desc);
     desc.sppm.photons = Some(4_000);
-    desc.sppm.radius = Some(0.03);
-    desc.sppm.alpha = 1.0;
-    desc.vcm.light_paths = Some(512);
-    desc.vcm.radius = Some(0.02);
-    desc.vcm.alpha = 1.0;
     desc
 }
 

@@ -58,14 +58,7 @@ fn a_sky_with_a_bright_patch_agrees_with_path() {
         ball(0.9, Material::plastic(0.5, 0.4)),
     ];
     let mut desc = scene_of(look([0.0, 0.4, 2.9], [0.0, -0.6, 0.0], 50.0), 16, objects);
-    desc.photon_map.photons = 40_000;
-    desc.photon_map.caustic_photons = 40_000;
-    desc.sppm.photons = Some(16_000);
-    desc.sppm.radius = Some(0.03);
-    desc.sppm.alpha = 1.0;
-    desc.vcm.light_paths = Some(512);
-    desc.vcm.radius = Some(0.02);
-    desc.vcm.alpha = 1.0;
+    small_maps(&mut desc);
     add_sky(&mut desc, "patch", 32, 40.0, |x, y| match (x, y) {
         (18, 4) => [200.0, 150.0, 100.0],
         (_, 0..8) => [0.3, 0.5, 1.0],
@@ -89,14 +82,7 @@ fn sun_and_sky_agree_with_path() {
         ball(0.6, Material::conductor("gold", 0.4)),
     ];
     let mut desc = scene_of(look([0.0, 1.6, 2.2], [0.0, -0.9, 0.0], 40.0), 16, objects);
-    desc.photon_map.photons = 40_000;
-    desc.photon_map.caustic_photons = 40_000;
-    desc.sppm.photons = Some(16_000);
-    desc.sppm.radius = Some(0.03);
-    desc.sppm.alpha = 1.0;
-    desc.vcm.light_paths = Some(512);
-    desc.vcm.radius = Some(0.02);
-    desc.vcm.alpha = 1.0;
+    small_maps(&mut desc);
     desc.lights.push(Light::from(LightKind::SunSky(sky)).into());
     let path = brightness(&desc, PATH, 8, 120);
     for integrator in [PHOTON_MAP, IntegratorKind::Sppm, IntegratorKind::Vcm, IntegratorKind::Auto] {

@@ -57,6 +57,19 @@ pub fn disk(center: Triple, normal: Triple, radius: f32) -> Shape {
     Shape::Disk { center, normal, radius }
 }
 
+/// Few photons and light paths in radii that do not shrink: the least that agrees with paths within a per cent, on films of 16
+/// pixels a side.
+pub fn small_maps(desc: &mut SceneDesc) {
+    desc.photon_map.photons = 40_000;
+    desc.photon_map.caustic_photons = 40_000;
+    desc.sppm.photons = Some(16_000);
+    desc.sppm.radius = Some(0.03);
+    desc.sppm.alpha = 1.0;
+    desc.vcm.light_paths = Some(512);
+    desc.vcm.radius = Some(0.02);
+    desc.vcm.alpha = 1.0;
+}
+
 /// A square of side `2·half` that faces up, at height `y`.
 pub fn ground(y: f32, half: f32) -> Shape {
     let side = 2.0 * half;

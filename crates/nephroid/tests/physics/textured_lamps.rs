@@ -90,14 +90,7 @@ fn textured_lamps_agree_with_path() {
         ];
         let desc = scene_of(look([0.0, 0.4, 2.9], [0.0, -0.6, 0.0], 50.0), 16, objects);
         let mut desc = with_pattern(desc, 1.5);
-        desc.photon_map.photons = 40_000;
-        desc.photon_map.caustic_photons = 40_000;
-        desc.sppm.photons = Some(16_000);
-        desc.sppm.radius = Some(0.03);
-        desc.sppm.alpha = 1.0;
-        desc.vcm.light_paths = Some(512);
-        desc.vcm.radius = Some(0.02);
-        desc.vcm.alpha = 1.0;
+        small_maps(&mut desc);
         let path = brightness(&desc, PATH, 12, 64);
         let others = [IntegratorKind::Sppm, IntegratorKind::Vcm, PHOTON_MAP, IntegratorKind::Auto];
         for integrator in others.into_iter().take(if name == "quad" { 4 } else { 1 }) {

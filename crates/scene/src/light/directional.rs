@@ -32,6 +32,21 @@ impl SceneSphere {
         self.center - w * self.radius
     }
 
+    /// Light that arrives at `p` along −`wi`.
+    pub fn sample_li(&self, p: Vec3, wi: Vec3, pdf_w: f32, radiance: Lanes) -> LiSample {
+        LiSample {
+            wi,
+            distance: f32::INFINITY,
+            radiance,
+            pdf_w,
+            is_delta: false,
+            p: p + wi * (2.0 * self.radius),
+            p_error: 0.0,
+            n: Vec3::ZERO,
+            prim: 0,
+        }
+    }
+
     /// A path along `w` that starts on that disc, uniform in area.
     pub fn sample_le(&self, w: Vec3, pdf_w: f32, radiance: Lanes, u: [f32; 2]) -> Option<LeSample> {
         let d = warp::disk(u) * self.radius;
@@ -99,18 +114,8 @@ impl DirectionalLight {
     }
 
     pub(super) fn sample_li(&self, p: Vec3) -> Option<LiSample> {
-        let wi = -self.direction;
-        Some(LiSample {
-            wi,
-            distance: f32::INFINITY,
-            radiance: self.irradiance,
-            pdf_w: 1.0,
-            is_delta: true,
-            p: p + wi * (2.0 * self.scene.radius),
-            p_error: 0.0,
-            n: Vec3::ZERO,
-            prim: 0,
-        })
+        let li = self.scene.sample_li(p, -self.direction, 1.0, self.irradiance);
+        Some(LiSample { is_delta: true, ..li })
     }
 
     pub(super) fn sample_le(&self, u: [f32; 2]) -> Option<LeSample> {

@@ -34,18 +34,7 @@ impl EnvironmentLight {
     }
 
     pub(super) fn sample_li(&self, p: Vec3, u: [f32; 2]) -> Option<LiSample> {
-        let wi = warp::sphere(u);
-        Some(LiSample {
-            wi,
-            distance: f32::INFINITY,
-            radiance: self.radiance,
-            pdf_w: warp::SPHERE_PDF_W,
-            is_delta: false,
-            p: p + wi * (2.0 * self.scene.radius),
-            p_error: 0.0,
-            n: Vec3::ZERO,
-            prim: 0,
-        })
+        Some(self.scene.sample_li(p, warp::sphere(u), warp::SPHERE_PDF_W, self.radiance))
     }
 
     pub(super) fn pdf_li_w(&self) -> f32 {

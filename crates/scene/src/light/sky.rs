@@ -186,17 +186,7 @@ impl SkyLight {
 
     pub(super) fn sample_li(&self, p: Vec3, u: [f32; 2]) -> Option<LiSample> {
         let (wi, pdf_w) = self.sample(u)?;
-        Some(LiSample {
-            wi,
-            distance: f32::INFINITY,
-            radiance: self.radiance(wi),
-            pdf_w,
-            is_delta: false,
-            p: p + wi * (2.0 * self.scene.radius),
-            p_error: 0.0,
-            n: Vec3::ZERO,
-            prim: 0,
-        })
+        Some(self.scene.sample_li(p, wi, pdf_w, self.radiance(wi)))
     }
 
     pub(super) fn sample_le(&self, u_pos: [f32; 2], u_dir: [f32; 2]) -> Option<LeSample> {

@@ -62,18 +62,8 @@ impl SunLight {
     }
 
     pub(super) fn sample_li(&self, p: Vec3, u: [f32; 2]) -> Option<LiSample> {
-        let wi = self.sample(u);
-        Some(LiSample {
-            wi,
-            distance: f32::INFINITY,
-            radiance: self.radiance,
-            pdf_w: warp::cone_pdf_w(self.one_minus_cos),
-            is_delta: false,
-            p: p + wi * (2.0 * self.scene.radius),
-            p_error: 0.0,
-            n: Vec3::ZERO,
-            prim: 0,
-        })
+        let pdf_w = warp::cone_pdf_w(self.one_minus_cos);
+        Some(self.scene.sample_li(p, self.sample(u), pdf_w, self.radiance))
     }
 
     pub(super) fn sample_le(&self, u_pos: [f32; 2], u_dir: [f32; 2]) -> Option<LeSample> {

@@ -52,7 +52,7 @@ const PICTURE_INTENSITY: &[Key] = &[
     TEMPERATURE,
 ];
 
-const PICTURE: Kind = Kind::File(super::texture::PICTURES);
+const PICTURE: Kind = Kind::File(super::PICTURES);
 
 const PLACED: Key = key(
     "transform",

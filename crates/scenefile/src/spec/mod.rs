@@ -11,7 +11,7 @@ pub use light::LIGHTS;
 pub use material::MATERIALS;
 pub use object::{GROUPS, INSTANCES, LOOK_AT, OBJECTS, ROTATE, TRANSFORM};
 pub use settings::{CAMERA, FILM, PHOTON_MAP, RENDER, SPPM, VCM};
-pub use texture::{TEXTURE_REF, TEXTURES};
+pub use texture::{PICTURES, TEXTURE_REF, TEXTURES};
 
 /// Numbers that a key allows; always finite.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -221,8 +221,8 @@ pub const TEXTURES: Section = Section {
     example: "",
 };
 
-/// Extensions of picture files.
-pub(super) const PICTURES: &[&str] =
+/// Extensions of picture files that can be read.
+pub const PICTURES: &[&str] =
     &["png", "jpg", "jpeg", "tif", "tiff", "webp", "bmp", "tga", "ppm", "pgm", "hdr", "exr", "pfm"];
 
 /// `{ texture = "NAME" }`, wherever a colour is asked for.
