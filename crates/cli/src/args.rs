@@ -7,11 +7,14 @@ use std::time::Duration;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use nephroid::desc::IntegratorKind;
-use nephroid::{Extent, Film, PhotonKind};
+use nephroid::{Extent, PhotonKind};
 
-use crate::span;
+use crate::values::Size;
+use crate::{span, values};
 
 /// Renders global illumination and caustics with photon maps.
+///
+/// `nephroid SCENE` is short for `nephroid render SCENE`.
 ///
 /// Exit status: 0 all is well; 1 something failed on the way (a full disk, say); 2 the command line or the scene is
 /// wrong, nothing was written; 130 interrupted, pictures and checkpoint of the passes done were written.
@@ -57,6 +60,14 @@ pub struct SceneArgs {
     /// The scene file: TOML, .pbrt (version 4, or 3 where its names differ), .xml (Mitsuba), .gltf, .glb, .obj or .ply.
     pub scene: PathBuf,
 
+    /// Its changes.
+    #[command(flatten)]
+    pub changes: Changes,
+}
+
+/// What replaces parts of a scene.
+#[derive(Debug, Args)]
+pub struct Changes {
     /// Take every doubt about the scene for a mistake, as what a file of another program has and Nephroid does not.
     #[arg(long)]
     pub strict: bool,
@@ -65,16 +76,17 @@ pub struct SceneArgs {
     #[arg(long, value_name = "NAME")]
     pub integrator: Option<Integrator>,
 
-    /// Size of the picture in pixels, as 640x480 [default: the scene's, or 512x512].
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
-    pub size: Option<[u32; 2]>,
+    /// Size of the picture in pixels: width and height, as 640x480, or the width alone, as 640, to which the height
+    /// keeps the scene's aspect [default: the scene's, or 512x512].
+    #[arg(long, visible_alias = "resolution", value_name = "WxH|W", value_parser = values::size)]
+    pub size: Option<Size>,
 
     /// Width of the picture in pixels; the height keeps the scene's aspect.
     #[arg(long, value_name = "PIXELS", conflicts_with = "size", value_parser = clap::value_parser!(u32).range(1..=65536))]
     pub width: Option<u32>,
 
     /// Passes, each one camera sample a pixel [default: the scene's, or 128].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4_194_304))]
+    #[arg(long, visible_aliases = ["spp", "samples"], value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4_194_304))]
     pub passes: Option<u32>,
 
     /// Seed of every random number: same seed, same bytes [default: the scene's, or 0].
@@ -86,7 +98,7 @@ pub struct SceneArgs {
     pub max_depth: Option<u32>,
 
     /// Exposure of PNG pictures in EV (stops): radiance is multiplied by 2^EV [default: the scene's, or 0].
-    #[arg(long, value_name = "EV", allow_negative_numbers = true, value_parser = parse_exposure)]
+    #[arg(long, value_name = "EV", allow_negative_numbers = true, value_parser = values::exposure)]
     pub exposure: Option<f32>,
 
     /// Replace any value of the scene file, as photon_map.knn=80 or materials.glass.ior=1.5 (a TOML value); may be
@@ -98,9 +110,13 @@ pub struct SceneArgs {
 /// Arguments of `render`.
 #[derive(Debug, Args)]
 pub struct RenderArgs {
-    /// The scene and its changes.
+    /// The scene files: TOML, .pbrt (version 4, or 3 where its names differ), .xml (Mitsuba), .gltf, .glb, .obj or .ply.
+    #[arg(value_name = "SCENE", required = true)]
+    pub scenes: Vec<PathBuf>,
+
+    /// What replaces parts of them.
     #[command(flatten)]
-    pub scene: SceneArgs,
+    pub changes: Changes,
 
     /// Picture to write: .exr (linear radiance, all layers) or .png (8 bits, displayed); may be given several times
     /// [default: the scene's name with .png, in the working directory].
@@ -113,7 +129,7 @@ pub struct RenderArgs {
     pub time: Option<Duration>,
 
     /// Render only passes A to B - 1 of what may be 4194304, to be put together by `nephroid merge`.
-    #[arg(long, value_name = "A..B", conflicts_with = "passes", value_parser = parse_range)]
+    #[arg(long, value_name = "A..B", conflicts_with = "passes", value_parser = values::range)]
     pub pass_range: Option<Range<u64>>,
 
     /// More layers for .exr pictures, which add up to the picture: one for each technique that finds light, or one for
@@ -139,7 +155,7 @@ pub struct RenderArgs {
 #[derive(Clone, Copy, Debug, Args)]
 pub struct RunArgs {
     /// Threads; 0 is one for each core. Their number never changes the picture.
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = parse_threads)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = values::threads)]
     pub threads: usize,
 
     /// Say at the end how long each part took, in seconds.
@@ -160,7 +176,7 @@ pub struct ResumeArgs {
 
     /// Passes that there shall be in the end, or with a plus sign, as +64, that many more [default: as was asked for
     /// when the render began].
-    #[arg(long, value_name = "N|+N", value_parser = parse_extent)]
+    #[arg(long, value_name = "N|+N", value_parser = values::extent)]
     pub passes: Option<Extent>,
 
     /// End after so much more time [default: what is left of the time that was asked for].
@@ -217,7 +233,7 @@ pub struct ReplayArgs {
     pub pass: u64,
 
     /// The camera path through this pixel: column and row, counted from 0 at the top left, as 10,20.
-    #[arg(long, value_name = "X,Y", value_parser = parse_pixel)]
+    #[arg(long, value_name = "X,Y", value_parser = values::pixel)]
     pub pixel: Option<[u32; 2]>,
 
     /// The photon path of this index, as warnings name it.
@@ -332,70 +348,6 @@ impl From<Integrator> for IntegratorKind {
     }
 }
 
-/// As in scene files.
-const MAX_PIXELS: u64 = 1 << 30;
-
-fn parse_size(text: &str) -> Result<[u32; 2], String> {
-    let wrong = || "a size is width x height in pixels, as 640x480, each from 1 to 65536".to_owned();
-    let (w, h) = text.split_once(['x', 'X', '×']).ok_or_else(wrong)?;
-    let side = |s: &str| s.trim().parse::<u32>().ok().filter(|n| (1..=65536).contains(n)).ok_or_else(wrong);
-    let size = [side(w)?, side(h)?];
-    if u64::from(size[0]) * u64::from(size[1]) > MAX_PIXELS {
-        return Err("a picture has at most 2^30 pixels".to_owned());
-    }
-    Ok(size)
-}
-
-fn parse_pixel(text: &str) -> Result<[u32; 2], String> {
-    let numbers = text.split_once(',').map(|(x, y)| (x.trim().parse(), y.trim().parse()));
-    let Some((Ok(x), Ok(y))) = numbers else {
-        return Err("a pixel is its column and its row, as 10,20".to_owned());
-    };
-    Ok([x, y])
-}
-
-fn parse_exposure(text: &str) -> Result<f32, String> {
-    let value: f32 = text.parse().map_err(|_| "an exposure is a number of stops, as 1.5 or -2".to_owned())?;
-    if (-64.0..=64.0).contains(&value) {
-        return Ok(value);
-    }
-    Err("an exposure lies between -64 and 64 EV".to_owned())
-}
-
-fn parse_threads(text: &str) -> Result<usize, String> {
-    text.parse().ok().filter(|n| *n <= 1024).ok_or_else(|| "threads are a number from 0 to 1024".to_owned())
-}
-
-fn parse_range(text: &str) -> Result<Range<u64>, String> {
-    let numbers = text.split_once("..").map(|(a, b)| (a.trim().parse(), b.trim().parse()));
-    let Some((Ok(start), Ok(end))) = numbers else {
-        return Err("a range of passes is as 64..128: the first, and the one after the last".to_owned());
-    };
-    match start..end {
-        range if range.end > Film::MAX_PASSES => {
-            Err(format!("passes are numbered below {}", Film::MAX_PASSES))
-        }
-        range if start > end => {
-            Err(format!("the range is reversed: {end}..{start} is meant?", end = range.end))
-        }
-        range if range.is_empty() => Err("the range is empty: its end is the pass after the last".to_owned()),
-        range => Ok(range),
-    }
-}
-
-fn parse_extent(text: &str) -> Result<Extent, String> {
-    let (number, extent): (_, fn(u64) -> Extent) = match text.strip_prefix('+') {
-        Some(more) => (more, Extent::More),
-        None => (text, Extent::Total),
-    };
-    match number.parse() {
-        Ok(n) if (1..=Film::MAX_PASSES).contains(&n) && number.starts_with(|c: char| c.is_ascii_digit()) => {
-            Ok(extent(n))
-        }
-        _ => Err(format!("passes are a number from 1 to {}, or as many more, as +64", Film::MAX_PASSES)),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -416,52 +368,5 @@ mod tests {
             command.get_subcommands().for_each(check);
         }
         check(&Cli::command());
-    }
-
-    #[test]
-    fn sizes() {
-        assert_eq!(parse_size("640x480"), Ok([640, 480]));
-        assert_eq!(parse_size("7X5"), Ok([7, 5]));
-        for wrong in ["", "640", "640x", "0x5", "5x0", "-1x5", "65537x1", "1x2x3", "axb", "65536x65536"] {
-            assert!(parse_size(wrong).is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn pixels() {
-        assert_eq!(parse_pixel("10,20"), Ok([10, 20]));
-        for wrong in ["", "10", "10,", "-1,2", "1,2,3", "a,b"] {
-            assert!(parse_pixel(wrong).is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn exposures() {
-        assert_eq!(parse_exposure("-1.5"), Ok(-1.5));
-        for wrong in ["", "x", "nan", "inf", "65"] {
-            assert!(parse_exposure(wrong).is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn ranges_of_passes() {
-        assert_eq!(parse_range("64..128"), Ok(64..128));
-        assert_eq!(parse_range("0..4194304"), Ok(0..4_194_304));
-        for (wrong, said) in
-            [("4..4", "empty"), ("9..3", "3..9"), ("5", "64..128"), ("..4", "64"), ("-1..4", "64")]
-        {
-            let message = parse_range(wrong).unwrap_err();
-            assert!(message.contains(said), "{wrong}: {message}");
-        }
-        assert!(parse_range("0..4194305").is_err());
-    }
-
-    #[test]
-    fn extents() {
-        assert_eq!(parse_extent("64"), Ok(Extent::Total(64)));
-        assert_eq!(parse_extent("+1"), Ok(Extent::More(1)));
-        for wrong in ["", "0", "+0", "++4", "-4", "x", "4194305"] {
-            assert!(parse_extent(wrong).is_err(), "{wrong}");
-        }
     }
 }

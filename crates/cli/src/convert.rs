@@ -16,7 +16,7 @@ pub fn run(args: &ConvertArgs) -> Outcome {
     if args.out.extension().is_none_or(|e| !e.eq_ignore_ascii_case("toml")) {
         return Err(Failure::usage(format!("{name} is written as TOML\n  = help: name it with .toml")));
     }
-    let mut described = describe(&args.scene, Vec::new())?;
+    let mut described = describe(&args.scene.scene, &args.scene.changes, Vec::new())?;
     let warnings = render_all(&described.warnings, &described.sources);
     if !warnings.is_empty() {
         say::say(say::painted(&warnings).trim_end());

@@ -7,29 +7,33 @@ use std::time::Instant;
 use nephroid::{Control, Event, Film, MapReport, Output, Phase, PictureInfo, Session, Timings};
 
 use crate::args::RunArgs;
-use crate::failure::{FAILED, Failure, OK, Outcome};
+use crate::failure::{FAILED, OK, Outcome};
 use crate::info::bytes;
 use crate::progress::{Position, Progress, duration};
 use crate::replay::key_arguments;
 use crate::say;
 use crate::signals::{INTERRUPTED, Interrupt};
 
-/// Renders what is missing and writes the pictures. `timings`: what came before; `again`: what `nephroid replay` is to be
-/// given to trace paths of this render.
-pub fn drive(
-    mut session: Session,
-    outputs: &[Output],
-    info: &PictureInfo,
-    args: RunArgs,
-    mut timings: Timings,
-    again: &str,
-) -> Outcome {
+/// How a session is to be driven.
+#[derive(Debug)]
+pub struct Drive<'a> {
+    /// Pictures to write.
+    pub outputs: &'a [Output],
+    /// What they are written with.
+    pub info: &'a PictureInfo,
+    /// How to run.
+    pub run: RunArgs,
+    /// What came before.
+    pub timings: Timings,
+    /// What `nephroid replay` is to be given to trace paths of this render.
+    pub again: &'a str,
+}
+
+/// Renders what is missing and writes the pictures.
+pub fn drive(mut session: Session, how: Drive<'_>, interrupt: &Interrupt) -> Outcome {
+    let Drive { outputs, info, run: args, mut timings, again } = how;
     let mut progress = Progress::new(args.quiet);
-    let handle = progress.clone();
-    let interrupt = Interrupt::catch(move || {
-        handle.line("interrupted: the picture is written after this pass; once more ends at once");
-    })
-    .map_err(|e| Failure::runtime(format!("Ctrl-C cannot be caught: {e}")))?;
+    interrupt.answer_through(&progress);
     let mut teller = Teller { again, maps: false, saved: None };
     let result = session.run(&mut |event| {
         teller.tell(&mut progress, event);
@@ -194,6 +198,13 @@ pub fn write(
     }
     timings.add(Phase::Write, start.elapsed());
     all
+}
+
+/// Says which files the pictures will replace.
+pub fn say_replaced(outputs: &[Output]) {
+    for output in outputs.iter().filter(|output| output.path().exists()) {
+        say::say(&format!("{} is there already: it will be replaced", output.path().display()));
+    }
 }
 
 /// Absolute paths, for whoever goes on with the render in another folder.

@@ -19,7 +19,7 @@ pub fn run(args: &InfoArgs) -> Outcome {
     if Checkpoint::is_one(&args.scene.scene) {
         return checkpoint::info(&args.scene.scene);
     }
-    let mut described = describe(&args.scene, Vec::new())?;
+    let mut described = describe(&args.scene.scene, &args.scene.changes, Vec::new())?;
     let (survey, warnings) = surveyed(&mut described)?;
     if !warnings.is_empty() {
         say::say(say::painted(&warnings).trim_end());

@@ -10,6 +10,7 @@ mod failure;
 mod info;
 mod manual;
 mod merge;
+mod places;
 mod progress;
 mod render;
 mod replay;
@@ -19,15 +20,22 @@ mod say;
 mod scene;
 mod signals;
 mod span;
+mod typed;
+mod values;
 
 use std::process::ExitCode;
 
-use clap::Parser;
-
-use args::{Cli, Command};
+use args::Command;
 
 fn main() -> ExitCode {
-    let result = match Cli::parse().command {
+    let cli = match typed::parse(std::env::args_os().collect()) {
+        Ok(cli) => cli,
+        Err(error) => match typed::refused(&error) {
+            Some(failure) => return ExitCode::from(failure.report()),
+            None => error.exit(),
+        },
+    };
+    let result = match cli.command {
         Command::Render(args) => render::run(&args),
         Command::Resume(args) => resume::run(&args),
         Command::Merge(args) => merge::run(&args),

@@ -8,7 +8,7 @@ use nephroid::{
 
 use crate::args::MergeArgs;
 use crate::checkpoint;
-use crate::drive::{noise_line, passes, write};
+use crate::drive::{noise_line, passes, say_replaced, write};
 use crate::failure::{FAILED, Failure, OK, Outcome};
 use crate::info::bytes;
 use crate::render::{checked, refusal};
@@ -45,6 +45,7 @@ pub fn run(args: &MergeArgs) -> Outcome {
         return Err(Failure::Usage(replaced.iter().map(refusal).collect()));
     }
     if !args.quiet {
+        say_replaced(&outputs);
         let missing = gaps(film.pass_ranges());
         let note = if missing.is_empty() {
             String::new()

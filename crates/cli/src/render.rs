@@ -9,31 +9,99 @@ use nephroid::{
 
 use crate::args::{Layers, RenderArgs};
 use crate::checkpoint;
-use crate::drive::{absolute, drive};
-use crate::failure::{Failure, Outcome};
+use crate::drive::{Drive, absolute, drive, say_replaced};
+use crate::failure::{Failure, OK, Outcome};
+use crate::places;
 use crate::replay::scene_arguments;
 use crate::say;
-use crate::scene::{compiled, describe};
+use crate::scene::{Described, compiled, describe};
+use crate::signals::{INTERRUPTED, Interrupt};
 
-/// Renders a scene and writes its pictures.
+/// Renders scenes and writes their pictures. Of several each is looked at before the first is rendered.
 pub fn run(args: &RenderArgs) -> Outcome {
     let mut messages = Vec::new();
-    let outputs = checked(&wanted_outputs(args), &mut messages);
+    let outputs = checked(&all_outputs(args, &mut messages), &mut messages);
+    // As many for each scene.
+    let shares: Vec<&[Output]> = match outputs.len() / args.scenes.len() {
+        0 => vec![&[]; args.scenes.len()],
+        each => outputs.chunks(each).collect(),
+    };
     let file = args.checkpoint.as_deref().map(CheckpointFile::create).transpose();
     let file = file.unwrap_or_else(|error| {
         messages.push(checkpoint::refusal(&error));
         None
     });
-    let mut described = describe(&args.scene, messages)?;
+    match (args.scenes.as_slice(), shares.as_slice()) {
+        ([scene], [outputs]) => {
+            let described = read(args, scene, outputs, messages)?;
+            render(args, Prepared { scene, outputs, described, file }, &Interrupt::catch()?)
+        }
+        (scenes, shares) => several(args, scenes, shares, messages),
+    }
+}
+
+/// Looks at all scenes, then renders one after another, whatever becomes of those before; the greatest exit status.
+fn several(args: &RenderArgs, scenes: &[PathBuf], shares: &[&[Output]], messages: Vec<String>) -> Outcome {
+    let mut wrong = OK;
+    if !messages.is_empty() {
+        wrong = Failure::Usage(messages).report();
+    }
+    for (scene, outputs) in scenes.iter().zip(shares) {
+        // Read again when it is its turn: all of them together may be large.
+        if let Err(failure) = read(args, scene, outputs, Vec::new()) {
+            wrong = wrong.max(failure.report());
+        }
+    }
+    if wrong != OK {
+        return Ok(wrong);
+    }
+    let interrupt = Interrupt::catch()?;
+    let mut code = OK;
+    for (i, (scene, outputs)) in scenes.iter().zip(shares).enumerate() {
+        if !args.run.quiet {
+            say::say(&format!("{} ({} of {})", scene.display(), i + 1, scenes.len()));
+        }
+        let one = read(args, scene, outputs, Vec::new()).and_then(|described| {
+            render(args, Prepared { scene, outputs, described, file: None }, &interrupt)
+        });
+        code = code.max(one.unwrap_or_else(|failure| failure.report()));
+        if interrupt.is_asked() {
+            return Ok(INTERRUPTED);
+        }
+    }
+    Ok(code)
+}
+
+/// A scene that was read, and where its render goes.
+struct Prepared<'a> {
+    scene: &'a Path,
+    outputs: &'a [Output],
+    described: Described,
+    file: Option<CheckpointFile>,
+}
+
+/// Reads a scene with all that the command line changes; `messages`: what else is wrong.
+fn read(
+    args: &RenderArgs,
+    scene: &Path,
+    outputs: &[Output],
+    messages: Vec<String>,
+) -> Result<Described, Failure> {
+    let mut described = describe(scene, &args.changes, messages)?;
     if !args.layers.is_empty() {
         let has = |layers| args.layers.contains(&layers);
         described.desc.film.layers =
             desc::Layers { techniques: has(Layers::Techniques), lights: has(Layers::Lights) };
     }
-    let replaced = overwritten_inputs(&outputs, &described.desc);
+    let replaced = overwritten_inputs(outputs, &described.desc);
     if !replaced.is_empty() {
         return Err(Failure::Usage(replaced.iter().map(refusal).collect()));
     }
+    Ok(described)
+}
+
+fn render(args: &RenderArgs, prepared: Prepared<'_>, interrupt: &Interrupt) -> Outcome {
+    let Prepared { scene: path, outputs, mut described, file } = prepared;
     let (scene, warnings) = compiled(&mut described, args.run.threads)?;
     if !warnings.is_empty() {
         say::say(say::painted(&warnings).trim_end());
@@ -50,40 +118,66 @@ pub fn run(args: &RenderArgs) -> Outcome {
     let hash = match file {
         None => scene_hash(desc).map_err(Failure::runtime)?,
         Some(file) => {
-            let info = match Format::of(&args.scene.scene) {
+            let info = match Format::of(path) {
                 Format::Native => CheckpointInfo::new(desc),
-                _ => CheckpointInfo::of_import(desc, &args.scene.scene, &args.scene.set),
+                _ => CheckpointInfo::of_import(desc, path, &args.changes.set),
             };
             let mut info = info.map_err(Failure::runtime)?;
             info.timings = described.timings.clone();
-            info.outputs = absolute(&outputs);
+            info.outputs = absolute(outputs);
             let hash = info.hash;
             session = session.with_checkpoint(file, info, args.checkpoint_every);
             hash
         }
     };
     let info = PictureInfo::new(desc, hash);
-    drive(session, &outputs, &info, args.run, described.timings, &scene_arguments(&args.scene))
+    if !args.run.quiet {
+        say_replaced(outputs);
+    }
+    let again = scene_arguments(path, &args.changes);
+    let timings = described.timings;
+    drive(session, Drive { outputs, info: &info, run: args.run, timings, again: &again }, interrupt)
 }
 
 /// The passes that were asked for: a range, a number, those of the scene, or with nothing but a time, without end.
 fn wanted_passes(args: &RenderArgs, job: Job) -> Job {
-    match (&args.pass_range, args.scene.passes, args.time) {
+    match (&args.pass_range, args.changes.passes, args.time) {
         (Some(range), ..) => Job { passes: range.clone(), ..job },
         (None, None, Some(_)) => job.endless(),
         _ => job,
     }
 }
 
-/// The outputs that were named, or the scene's name with .png in the working directory.
-fn wanted_outputs(args: &RenderArgs) -> Vec<PathBuf> {
-    if !args.output.is_empty() {
-        return args.output.clone();
+/// The outputs that were named, or each scene's name with .png in the working directory: scene by scene, as many for
+/// each. Names that cannot be of several scenes become messages.
+fn all_outputs(args: &RenderArgs, messages: &mut Vec<String>) -> Vec<PathBuf> {
+    let several = args.scenes.len() > 1;
+    if several {
+        for named in args.output.iter().filter(|named| !places::is_for_many(named)) {
+            messages.push(format!(
+                "{} cannot be the picture of {} scenes\n  = help: name a folder that is there, as -o pictures/, or put {{}} \
+                 for the scene's name, as -o {{}}.exr",
+                named.display(),
+                args.scenes.len()
+            ));
+        }
+        if args.checkpoint.is_some() {
+            messages.push(
+                "a checkpoint is of one scene\n  = help: render the scenes one by one, each with a checkpoint of its own"
+                    .into(),
+            );
+        }
     }
-    let stem = args.scene.scene.file_stem().unwrap_or("picture".as_ref());
-    let mut name = stem.to_os_string();
-    name.push(".png");
-    vec![Path::new(&name).to_path_buf()]
+    if !messages.is_empty() {
+        return Vec::new();
+    }
+    let of_scene = |scene: &PathBuf| -> Vec<PathBuf> {
+        if args.output.is_empty() {
+            return vec![places::default(scene, "png")];
+        }
+        args.output.iter().map(|named| places::of_scene(named, scene, "png")).collect()
+    };
+    args.scenes.iter().flat_map(of_scene).collect()
 }
 
 /// Outputs that can be written; those that cannot become messages.

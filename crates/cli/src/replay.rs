@@ -1,18 +1,20 @@
 //! `nephroid replay`.
 
 use std::fmt::Write as _;
+use std::path::Path;
 
 use nephroid::{
     Checkpoint, CheckpointErrorKind, Job, PathEvent, PathRecord, ReplayError, ReplayKey, Replayed, SceneDesc,
     VertexRecord, replay,
 };
 
-use crate::args::{Integrator, ReplayArgs, SceneArgs};
+use crate::args::{Changes, Integrator, ReplayArgs, SceneArgs};
 use crate::checkpoint;
 use crate::failure::{Failure, OK, Outcome};
 use crate::replay_json::json;
 use crate::say;
 use crate::scene::{Described, compiled, describe};
+use crate::values::Size;
 use clap::ValueEnum;
 
 /// Traces a path again and prints it.
@@ -20,7 +22,7 @@ pub fn run(args: &ReplayArgs) -> Outcome {
     let mut described = if Checkpoint::is_one(&args.scene.scene) {
         of_checkpoint(&args.scene)?
     } else {
-        describe(&args.scene, Vec::new())?
+        describe(&args.scene.scene, &args.scene.changes, Vec::new())?
     };
     let (scene, warnings) = compiled(&mut described, 0)?;
     if !warnings.is_empty() {
@@ -47,7 +49,7 @@ pub fn run(args: &ReplayArgs) -> Outcome {
 /// What a checkpoint was made of.
 fn of_checkpoint(args: &SceneArgs) -> Result<Described, Failure> {
     let name = args.scene.to_string_lossy();
-    if scene_arguments(args) != quoted(&name) {
+    if scene_arguments(&args.scene, &args.changes) != quoted(&name) {
         return Err(Failure::usage(format!(
             "{name} is a checkpoint, whose scene and settings cannot be changed\n  = help: give the pass and the pixel or \
              photon alone"
@@ -84,8 +86,8 @@ pub fn key_arguments(key: ReplayKey) -> String {
 }
 
 /// The part of a command line that names a scene and what decides its paths.
-pub fn scene_arguments(args: &SceneArgs) -> String {
-    let mut words = vec![args.scene.to_string_lossy().into_owned()];
+pub fn scene_arguments(scene: &Path, args: &Changes) -> String {
+    let mut words = vec![scene.to_string_lossy().into_owned()];
     let mut flag = |name: &str, value: Option<String>| {
         if let Some(value) = value {
             words.extend([name.to_owned(), value]);
@@ -93,7 +95,13 @@ pub fn scene_arguments(args: &SceneArgs) -> String {
     };
     let name = |integrator: Integrator| Some(integrator.to_possible_value()?.get_name().to_owned());
     flag("--integrator", args.integrator.and_then(name));
-    flag("--size", args.size.map(|[w, h]| format!("{w}x{h}")));
+    flag(
+        "--size",
+        args.size.map(|size| match size {
+            Size::Both([w, h]) => format!("{w}x{h}"),
+            Size::Width(width) => width.to_string(),
+        }),
+    );
     flag("--width", args.width.map(|n| n.to_string()));
     flag("--seed", args.seed.map(|n| n.to_string()));
     flag("--max-depth", args.max_depth.map(|n| n.to_string()));

@@ -7,11 +7,12 @@ use nephroid::{
 
 use crate::args::ResumeArgs;
 use crate::checkpoint;
-use crate::drive::drive;
+use crate::drive::{Drive, drive, say_replaced};
 use crate::failure::{Failure, Outcome};
 use crate::render::{checked, refusal};
 use crate::replay::quoted;
 use crate::say;
+use crate::signals::Interrupt;
 
 /// Goes on with a checkpoint.
 pub fn run(args: &ResumeArgs) -> Outcome {
@@ -45,7 +46,12 @@ pub fn run(args: &ResumeArgs) -> Outcome {
         });
     }
     let picture = PictureInfo::new(&info.desc, info.hash);
-    drive(session, &outputs, &picture, args.run, timings, &quoted(&args.checkpoint.to_string_lossy()))
+    if !args.run.quiet && !args.output.is_empty() {
+        say_replaced(&outputs);
+    }
+    let again = quoted(&args.checkpoint.to_string_lossy());
+    let how = Drive { outputs: &outputs, info: &picture, run: args.run, timings, again: &again };
+    drive(session, how, &Interrupt::catch()?)
 }
 
 fn failure(error: &CheckpointError) -> Failure {

@@ -1,5 +1,6 @@
 //! From arguments to a description and a compiled scene, with every mistake said at once.
 
+use std::path::Path;
 use std::time::Instant;
 
 use nephroid::{
@@ -7,8 +8,9 @@ use nephroid::{
     compile, load, render_all, strict, survey,
 };
 
-use crate::args::SceneArgs;
+use crate::args::Changes;
 use crate::failure::Failure;
+use crate::values::Size;
 
 /// A description that was read without mistakes.
 #[derive(Debug)]
@@ -23,17 +25,17 @@ pub struct Described {
     pub timings: Timings,
 }
 
-/// Reads the scene of `args`. `messages`: what else is wrong with the command line, to be said with it.
-pub fn describe(args: &SceneArgs, messages: Vec<String>) -> Result<Described, Failure> {
-    if Checkpoint::is_one(&args.scene) {
-        let name = args.scene.display();
+/// Reads a scene. `messages`: what else is wrong with the command line, to be said with it.
+pub fn describe(scene: &Path, changes: &Changes, messages: Vec<String>) -> Result<Described, Failure> {
+    if Checkpoint::is_one(scene) {
+        let name = scene.display();
         return Err(Failure::usage(format!(
             "{name} is no scene but a checkpoint\n  = help: `nephroid resume {name}` goes on with it"
         )));
     }
     let start = Instant::now();
-    let loaded = load(&args.scene, &args.set);
-    let loaded = if args.strict { strict(loaded) } else { loaded };
+    let loaded = load(scene, &changes.set);
+    let loaded = if changes.strict { strict(loaded) } else { loaded };
     let mut timings = Timings::default();
     timings.add(Phase::Load, start.elapsed());
     let Some(mut desc) = loaded.desc else {
@@ -42,7 +44,7 @@ pub fn describe(args: &SceneArgs, messages: Vec<String>) -> Result<Described, Fa
     if !messages.is_empty() {
         return Err(Failure::Usage(messages));
     }
-    overrides(args).apply(&mut desc);
+    overrides(changes).apply(&mut desc);
     Ok(Described { desc, sources: loaded.sources, warnings: loaded.diagnostics, timings })
 }
 
@@ -82,14 +84,19 @@ pub fn surveyed(described: &mut Described) -> Result<(Survey, String), Failure> 
     }
 }
 
-fn overrides(args: &SceneArgs) -> Overrides {
+fn overrides(changes: &Changes) -> Overrides {
+    let (size, width) = match changes.size {
+        Some(Size::Both(size)) => (Some(size), None),
+        Some(Size::Width(width)) => (None, Some(width)),
+        None => (None, changes.width),
+    };
     Overrides {
-        integrator: args.integrator.map(Into::into),
-        size: args.size,
-        width: args.width,
-        passes: args.passes,
-        seed: args.seed,
-        exposure: args.exposure,
-        max_depth: args.max_depth,
+        integrator: changes.integrator.map(Into::into),
+        size,
+        width,
+        passes: changes.passes,
+        seed: changes.seed,
+        exposure: changes.exposure,
+        max_depth: changes.max_depth,
     }
 }

@@ -21,6 +21,8 @@ pub enum OutputErrorKind {
     NotAFile,
     /// The folder that should hold the file is not there.
     MissingFolder(PathBuf),
+    /// The folder takes no new files, as those of the system's own.
+    ClosedFolder(PathBuf),
     /// The folder, or a file in it that would be replaced, may not be written.
     PermissionDenied,
     /// No space is left.
@@ -46,6 +48,9 @@ impl OutputError {
             io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => OutputErrorKind::DiskFull,
             io::ErrorKind::FileTooLarge => OutputErrorKind::TooLarge,
             io::ErrorKind::IsADirectory => OutputErrorKind::IsFolder,
+            io::ErrorKind::NotFound if folder_of(path).is_dir() => {
+                OutputErrorKind::ClosedFolder(folder_of(path).to_owned())
+            }
             io::ErrorKind::NotFound => OutputErrorKind::MissingFolder(folder_of(path).to_owned()),
             _ => OutputErrorKind::Io(error),
         };
@@ -70,6 +75,7 @@ impl OutputError {
             OutputErrorKind::MissingFolder(folder) => {
                 format!("create the folder {} first, or write elsewhere", folder.display())
             }
+            OutputErrorKind::ClosedFolder(_) => "write to an ordinary folder".into(),
             OutputErrorKind::PermissionDenied => {
                 "change the permissions of the file or its folder, or write elsewhere".into()
             }
@@ -91,6 +97,9 @@ impl fmt::Display for OutputError {
             OutputErrorKind::NotAFile => write!(f, "it is not an ordinary file"),
             OutputErrorKind::MissingFolder(folder) => {
                 write!(f, "the folder {} does not exist", folder.display())
+            }
+            OutputErrorKind::ClosedFolder(folder) => {
+                write!(f, "the folder {} takes no new files", folder.display())
             }
             OutputErrorKind::PermissionDenied => write!(f, "permission denied"),
             OutputErrorKind::DiskFull => write!(f, "no space is left on the disk"),

@@ -5,8 +5,10 @@
 //! What a format has and Nephroid does not is said once, with its place and what is done instead, as a warning.
 //! [`outsource`] moves large meshes of a description into PLY files, so that it can be written as TOML.
 
+mod absent;
 mod curve;
 mod file;
+mod foreign;
 mod gltf;
 mod matrix;
 mod mitsuba;
@@ -30,11 +32,23 @@ pub use outsource::{OutsourceError, outsource};
 /// Reads a scene in any known format: `.pbrt` and `.pbrt.gz` as pbrt, `.xml` as Mitsuba's, `.gltf` and `.glb` as glTF,
 /// `.obj` and `.ply` as meshes, everything else as TOML.
 ///
+/// Files of other programs are refused with what to export; a file that is not there with the name of one that may be meant.
+///
 /// `overrides` replace values of TOML files, as [`scenefile::load`] takes them, and each `name=value` what Mitsuba's
 /// `<default>` says; with another format they are errors.
 /// Never panics; memory is bounded by the size of the files.
 pub fn load(path: &Path, overrides: &[String]) -> Loaded {
     let format = Format::of(path);
+    let foreign = || (format == Format::Native).then(|| foreign::refusal(path)).flatten();
+    if let Some(refusal) = absent::refusal(path).or_else(foreign) {
+        let mut sources = Sources::default();
+        let file = sources.add(path, "");
+        return Loaded {
+            desc: None,
+            diagnostics: vec![refusal.at(Span { file, start: 0, end: 0 })],
+            sources,
+        };
+    }
     match format {
         Format::Native => return scenefile::load(path, overrides),
         Format::Mitsuba => return mitsuba::load(path, overrides),

@@ -218,8 +218,9 @@ fn files_that_go_round() {
     .assert_eq(&text);
     let missing = load(Path::new("none.pbrt"), &[]).render();
     expect![[r#"
-        error[file]: the scene file none.pbrt is not there
+        error[file]: the scene none.pbrt is not there
          --> none.pbrt
+          = help: the name is relative to the folder that the command is given in
 
         1 error
     "#]]

@@ -7,6 +7,7 @@ mod interrupt;
 mod layers;
 #[cfg(all(unix, feature = "long"))]
 mod long;
+mod manners;
 mod manual;
 mod outputs;
 mod replay;

@@ -128,7 +128,7 @@ fn command_lines_that_make_no_sense() {
         &["render"],
         &["render", "box.toml", "--passes", "0"],
         &["render", "box.toml", "--passes", "-1"],
-        &["render", "box.toml", "--size", "16"],
+        &["render", "box.toml", "--size", "16.5"],
         &["render", "box.toml", "--size", "0x5"],
         &["render", "box.toml", "--size", "4x4", "--width", "3"],
         &["render", "box.toml", "--exposure", "bright"],

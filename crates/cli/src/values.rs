@@ -1,0 +1,173 @@
+//! Values of flags as people type them.
+
+use std::ops::Range;
+
+use nephroid::{Extent, Film};
+
+/// As in scene files.
+const MAX_PIXELS: u64 = 1 << 30;
+
+/// Size of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Size {
+    /// Width and height.
+    Both([u32; 2]),
+    /// The width; the height keeps the aspect.
+    Width(u32),
+}
+
+/// 640x480, or a width alone.
+///
+/// # Errors
+/// What is wrong, for people.
+pub fn size(text: &str) -> Result<Size, String> {
+    let wrong = || {
+        "a size is width x height in pixels, as 640x480, or a width, as 640; each from 1 to 65536".to_owned()
+    };
+    let side = |s: &str| s.trim().parse::<u32>().ok().filter(|n| (1..=65536).contains(n)).ok_or_else(wrong);
+    let Some((w, h)) = text.split_once(['x', 'X', '×']) else {
+        return side(text).map(Size::Width);
+    };
+    let size = [side(w)?, side(h)?];
+    if u64::from(size[0]) * u64::from(size[1]) > MAX_PIXELS {
+        return Err("a picture has at most 2^30 pixels".to_owned());
+    }
+    Ok(Size::Both(size))
+}
+
+/// 10,20.
+///
+/// # Errors
+/// What is wrong, for people.
+pub fn pixel(text: &str) -> Result<[u32; 2], String> {
+    let numbers = text.split_once(',').map(|(x, y)| (x.trim().parse(), y.trim().parse()));
+    let Some((Ok(x), Ok(y))) = numbers else {
+        return Err("a pixel is its column and its row, as 10,20".to_owned());
+    };
+    Ok([x, y])
+}
+
+/// A number of stops.
+///
+/// # Errors
+/// What is wrong, for people.
+pub fn exposure(text: &str) -> Result<f32, String> {
+    let value: f32 = text.parse().map_err(|_| "an exposure is a number of stops, as 1.5 or -2".to_owned())?;
+    if (-64.0..=64.0).contains(&value) {
+        return Ok(value);
+    }
+    Err("an exposure lies between -64 and 64 EV".to_owned())
+}
+
+/// A number of threads; 0: one for each core.
+///
+/// # Errors
+/// What is wrong, for people.
+pub fn threads(text: &str) -> Result<usize, String> {
+    text.parse().ok().filter(|n| *n <= 1024).ok_or_else(|| "threads are a number from 0 to 1024".to_owned())
+}
+
+/// 64..128.
+///
+/// # Errors
+/// What is wrong, for people.
+pub fn range(text: &str) -> Result<Range<u64>, String> {
+    let numbers = text.split_once("..").map(|(a, b)| (a.trim().parse(), b.trim().parse()));
+    let Some((Ok(start), Ok(end))) = numbers else {
+        return Err("a range of passes is as 64..128: the first, and the one after the last".to_owned());
+    };
+    match start..end {
+        range if range.end > Film::MAX_PASSES => {
+            Err(format!("passes are numbered below {}", Film::MAX_PASSES))
+        }
+        range if start > end => {
+            Err(format!("the range is reversed: {end}..{start} is meant?", end = range.end))
+        }
+        range if range.is_empty() => Err("the range is empty: its end is the pass after the last".to_owned()),
+        range => Ok(range),
+    }
+}
+
+/// 256, or +64.
+///
+/// # Errors
+/// What is wrong, for people.
+pub fn extent(text: &str) -> Result<Extent, String> {
+    let (number, extent): (_, fn(u64) -> Extent) = match text.strip_prefix('+') {
+        Some(more) => (more, Extent::More),
+        None => (text, Extent::Total),
+    };
+    match number.parse() {
+        Ok(n) if (1..=Film::MAX_PASSES).contains(&n) && number.starts_with(|c: char| c.is_ascii_digit()) => {
+            Ok(extent(n))
+        }
+        _ => Err(format!("passes are a number from 1 to {}, or as many more, as +64", Film::MAX_PASSES)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes() {
+        assert_eq!(size("640x480"), Ok(Size::Both([640, 480])));
+        assert_eq!(size("7X5"), Ok(Size::Both([7, 5])));
+        assert_eq!(size("640"), Ok(Size::Width(640)));
+        for wrong in [
+            "",
+            "0",
+            "-1",
+            "1.5",
+            "65537",
+            "640x",
+            "0x5",
+            "5x0",
+            "-1x5",
+            "65537x1",
+            "1x2x3",
+            "axb",
+            "65536x65536",
+        ] {
+            assert!(size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn pixels() {
+        assert_eq!(pixel("10,20"), Ok([10, 20]));
+        for wrong in ["", "10", "10,", "-1,2", "1,2,3", "a,b"] {
+            assert!(pixel(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn exposures() {
+        assert_eq!(exposure("-1.5"), Ok(-1.5));
+        for wrong in ["", "x", "nan", "inf", "65"] {
+            assert!(exposure(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn ranges_of_passes() {
+        assert_eq!(range("64..128"), Ok(64..128));
+        assert_eq!(range("0..4194304"), Ok(0..4_194_304));
+        for (wrong, said) in
+            [("4..4", "empty"), ("9..3", "3..9"), ("5", "64..128"), ("..4", "64"), ("-1..4", "64")]
+        {
+            let message = range(wrong).unwrap_err();
+            assert!(message.contains(said), "{wrong}: {message}");
+        }
+        assert!(range("0..4194305").is_err());
+    }
+
+    #[test]
+    fn extents() {
+        assert_eq!(extent("64"), Ok(Extent::Total(64)));
+        assert_eq!(extent("+1"), Ok(Extent::More(1)));
+        for wrong in ["", "0", "+0", "++4", "-4", "x", "4194305"] {
+            assert!(extent(wrong).is_err(), "{wrong}");
+        }
+    }
+}
