@@ -2,6 +2,7 @@
 #![allow(clippy::print_stdout, clippy::print_stderr)] // it reports
 
 mod bench;
+mod dist;
 mod gallery;
 mod long;
 mod reference;
@@ -18,6 +19,7 @@ type Chore = (&'static str, &'static str, &'static str, fn(&[String]) -> Outcome
 
 const CHORES: &[Chore] = &[
     ("bench", "[--quick] [--only PREFIX] [--json FILE]", "measures against peers", bench::run),
+    ("dist", "[--target TRIPLE]", "packs the program for release: target/dist/", dist::run),
     ("gallery", "[NAME...]", "renders docs/gallery/", gallery::run),
     ("long", "[NAME...]", "runs the tests that take minutes", long::run),
     ("reference", "[--check]", "writes docs/reference.md", reference::run),
