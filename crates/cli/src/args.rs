@@ -9,7 +9,7 @@ use clap_complete::Shell;
 use nephroid::desc::IntegratorKind;
 use nephroid::{Extent, PhotonKind};
 
-use crate::values::Size;
+use crate::values::{Previews, Size};
 use crate::{span, values};
 
 /// Renders global illumination and caustics with photon maps.
@@ -89,6 +89,11 @@ pub struct Changes {
     #[arg(long, visible_aliases = ["spp", "samples"], value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4_194_304))]
     pub passes: Option<u32>,
 
+    /// End once the grain of a typical pixel is so small, as 2%; it is looked at from the eighth pass on. Without
+    /// --passes, passes go on until then; with it or --time, whichever comes first [default: the scene's, or none].
+    #[arg(long, value_name = "PERCENT", value_parser = values::noise)]
+    pub noise: Option<f32>,
+
     /// Seed of every random number: same seed, same bytes [default: the scene's, or 0].
     #[arg(long, value_name = "S")]
     pub seed: Option<u64>,
@@ -162,9 +167,31 @@ pub struct RunArgs {
     #[arg(long)]
     pub timings: bool,
 
+    /// How to tell of passes, on standard error [default: bar at a terminal, else lines].
+    #[arg(long, value_name = "HOW")]
+    pub progress: Option<How>,
+
+    /// Rewrite .png pictures so often while passes come, from the first on: 5s, 1m, or off. It takes a twentieth of a
+    /// core's time at most [default: 5s at a terminal, else off].
+    #[arg(long, value_name = "TIME", value_parser = values::previews)]
+    pub preview_every: Option<Previews>,
+
     /// Say nothing but what went wrong.
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+/// How to tell of passes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum How {
+    /// A bar that redraws itself.
+    Bar,
+    /// A line now and then, at most one each five seconds.
+    Lines,
+    /// JSON for programs, one object a line.
+    Json,
+    /// Nothing but what went wrong.
+    None,
 }
 
 /// Arguments of `resume`.
@@ -182,6 +209,10 @@ pub struct ResumeArgs {
     /// End after so much more time [default: what is left of the time that was asked for].
     #[arg(long, value_name = "TIME", value_parser = span::parse)]
     pub time: Option<Duration>,
+
+    /// End once the grain of a typical pixel is so small, as 2% [default: what was asked for when the render began].
+    #[arg(long, value_name = "PERCENT", value_parser = values::noise)]
+    pub noise: Option<f32>,
 
     /// Picture to write: .exr or .png; may be given several times [default: as when the render began].
     #[arg(short, long = "output", value_name = "OUT")]

@@ -5,8 +5,9 @@ use std::path::Path;
 
 use nephroid::{Checkpoint, CheckpointError, Film, said};
 
-use crate::drive::{noise_line, passes};
+use crate::drive::passes;
 use crate::failure::{Failure, OK, Outcome};
+use crate::grain;
 use crate::info::{bytes, row, settings};
 use crate::progress::duration;
 use crate::say;
@@ -35,8 +36,8 @@ pub fn info(path: &Path) -> Outcome {
     let time = info.time.map_or(String::new(), |time| format!(", {}", duration(time)));
     row(&mut text, "asked for", &format!("{asked}{time}"));
     row(&mut text, "took", &duration(info.elapsed));
-    if let Some(noise) = noise_line(&film) {
-        row(&mut text, "noise", noise.trim_start_matches("noise "));
+    if let Some(grain) = grain::line(&film) {
+        row(&mut text, "grain", grain.trim_start_matches("grain "));
     }
     if film.nonfinite_count() > 0 {
         row(&mut text, "left out", &format!("{} values that were not finite", film.nonfinite_count()));

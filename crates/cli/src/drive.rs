@@ -1,18 +1,23 @@
 //! Runs a session to its end: progress, signals, pictures, and what is said of them.
 
 use std::fmt::Write as _;
+use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use nephroid::{Control, Event, Film, MapReport, Output, Phase, PictureInfo, Session, Timings};
 
+use serde_json::json;
+
 use crate::args::RunArgs;
 use crate::failure::{FAILED, OK, Outcome};
+use crate::grain;
 use crate::info::bytes;
 use crate::progress::{Position, Progress, duration};
 use crate::replay::key_arguments;
 use crate::say;
 use crate::signals::{INTERRUPTED, Interrupt};
+use crate::values::Previews;
 
 /// How a session is to be driven.
 #[derive(Debug)]
@@ -27,14 +32,21 @@ pub struct Drive<'a> {
     pub timings: Timings,
     /// What `nephroid replay` is to be given to trace paths of this render.
     pub again: &'a str,
+    /// The grain that ends it.
+    pub goal: Option<f32>,
 }
 
 /// Renders what is missing and writes the pictures.
 pub fn drive(mut session: Session, how: Drive<'_>, interrupt: &Interrupt) -> Outcome {
-    let Drive { outputs, info, run: args, mut timings, again } = how;
-    let mut progress = Progress::new(args.quiet);
+    let Drive { outputs, info, run: args, mut timings, again, goal } = how;
+    let mut progress = Progress::new(&args);
     interrupt.answer_through(&progress);
-    let mut teller = Teller { again, maps: false, saved: None };
+    let previews = args.preview_every.map_or_else(default_previews, |Previews(every)| every);
+    if let Some(every) = previews {
+        session = session.with_previews(outputs, info, every);
+    }
+    let mut teller = Teller { again, goal, maps: false, saved: None };
+    let start = Instant::now();
     let result = session.run(&mut |event| {
         teller.tell(&mut progress, event);
         if interrupt.is_asked() { Control::Stop } else { Control::Continue }
@@ -44,26 +56,24 @@ pub fn drive(mut session: Session, how: Drive<'_>, interrupt: &Interrupt) -> Out
     timings.merge(session.timings());
     let mut code = OK;
     if let Err(error) = &result {
-        say::error(&format!("the render stopped: {error}"));
+        progress.error(&format!("the render stopped: {error}"));
         code = FAILED;
     }
-    let loud = !args.quiet;
-    if loud && let Some((passes, size)) = teller.saved.filter(|_| session.is_saved() == Some(true)) {
-        say_saved(&session, passes, size);
+    if let Some((passes, size)) = teller.saved.filter(|_| session.is_saved() == Some(true)) {
+        say_saved(&progress, &session, passes, size);
     }
     if session.is_saved() == Some(false) && session.done() > 0 {
         code = FAILED;
     }
-    if session.done() > 0 && !write(outputs, session.film(), info, args.quiet, &mut timings) {
+    if session.done() > 0 && !write(outputs, session.film(), info, &progress, &mut timings) {
         code = FAILED;
         if let (Some(true), Some(file)) = (session.is_saved(), session.checkpoint_file()) {
             let file = file.path().display();
-            say::say(&format!("  = help: nothing is lost: `nephroid merge {file} -o OUT` writes a picture"));
+            progress
+                .line(&format!("  = help: nothing is lost: `nephroid merge {file} -o OUT` writes a picture"));
         }
     }
-    if loud {
-        say_end(&session, result.as_ref().ok().copied());
-    }
+    say_end(&progress, &session, result.as_ref().ok().copied(), start.elapsed());
     if result == Ok(nephroid::Outcome::Stopped) && code == OK {
         code = INTERRUPTED;
     }
@@ -77,6 +87,7 @@ pub fn drive(mut session: Session, how: Drive<'_>, interrupt: &Interrupt) -> Out
 struct Teller<'a> {
     /// As for [`drive`].
     again: &'a str,
+    goal: Option<f32>,
     maps: bool,
     /// Passes and size of the last checkpoint.
     saved: Option<(u64, u64)>,
@@ -91,20 +102,25 @@ impl Teller<'_> {
             Event::MapsReady { reports, .. } if !std::mem::replace(&mut self.maps, true) => {
                 say_maps(progress, reports);
             }
-            Event::PassDone { done, passes, elapsed, remaining, .. } => {
-                progress.pass(&Position { done, passes, elapsed, remaining });
+            Event::PassDone { done, passes, elapsed, remaining, film, .. } => {
+                progress.pass(&Position { done, passes, elapsed, remaining, goal: self.goal }, film);
             }
             Event::Warning(warning) => {
                 let key = key_arguments(warning.replay_key());
                 let command = format!("nephroid replay {} {key}", self.again);
-                warn(progress, &format!("{warning}\n  = help: trace its path again: {command}"));
+                progress.warn(&format!("{warning}\n  = help: trace its path again: {command}"));
             }
             Event::CheckpointWritten { passes, bytes, .. } => self.saved = Some((passes, bytes)),
             Event::CheckpointFailed { error, .. } => {
                 let older = self.saved.map_or(String::new(), |(passes, _)| {
                     format!("; the checkpoint of {} is still there", self::passes(passes))
                 });
-                warn(progress, &format!("{error}{older}\n  = help: {}", error.help()));
+                progress.warn(&format!("{error}{older}\n  = help: {}", error.help()));
+            }
+            Event::PreviewWritten { passes, .. } => progress.preview(passes),
+            Event::PreviewFailed { error } => {
+                let tries = "the render goes on, and tries again";
+                progress.warn(&format!("{error}: {tries}\n  = help: {}", error.help()));
             }
             _ => {}
         }
@@ -123,23 +139,21 @@ fn say_maps(progress: &Progress, reports: &[MapReport]) {
     }
 }
 
-/// Warnings are said whatever the verbosity.
-fn warn(progress: &Progress, warning: &(impl ToString + ?Sized)) {
-    let text = say::warning(&warning.to_string());
-    match progress {
-        Progress::Quiet => say::say(&text),
-        _ => progress.line(&text),
-    }
+/// At a terminal people want to see something.
+fn default_previews() -> Option<Duration> {
+    std::io::stderr().is_terminal().then_some(Duration::from_secs(5))
 }
 
-fn say_saved(session: &Session, count: u64, size: u64) {
+fn say_saved(progress: &Progress, session: &Session, count: u64, size: u64) {
     if let Some(file) = session.checkpoint_file() {
-        say::say(&format!("saved {} ({}, {})", file.path().display(), passes(count), bytes(size)));
+        let path = file.path().display();
+        let text = format!("saved {path} ({}, {})", passes(count), bytes(size));
+        progress.object("saved", &text, json!({ "path": path.to_string(), "passes": count, "bytes": size }));
     }
 }
 
 /// How it ended, where that is not plain, and how good the picture is.
-fn say_end(session: &Session, outcome: Option<nephroid::Outcome>) {
+fn say_end(progress: &Progress, session: &Session, outcome: Option<nephroid::Outcome>, elapsed: Duration) {
     let done = session.done();
     let done = session.total().map_or_else(|| passes(done), |total| format!("{done} of {}", passes(total)));
     let resume = || {
@@ -148,14 +162,29 @@ fn say_end(session: &Session, outcome: Option<nephroid::Outcome>) {
     };
     match outcome {
         Some(nephroid::Outcome::Stopped) => {
-            say::say(&format!("interrupted after {done}{}", resume().unwrap_or_default()));
+            progress.line(&format!("interrupted after {done}{}", resume().unwrap_or_default()));
         }
-        Some(nephroid::Outcome::TimeUp) => say::say(&format!("the time is up after {done}")),
+        Some(nephroid::Outcome::TimeUp) => progress.line(&format!("the time is up after {done}")),
+        Some(nephroid::Outcome::FineEnough) => {
+            progress.line(&format!("the grain is as fine as was asked for after {done}"));
+        }
         Some(nephroid::Outcome::Finished) | None => {}
     }
-    if let Some(noise) = noise_line(session.film()) {
-        say::say(&noise);
-    }
+    let how = match outcome {
+        Some(nephroid::Outcome::Finished) => "finished",
+        Some(nephroid::Outcome::FineEnough) => "fine-enough",
+        Some(nephroid::Outcome::TimeUp) => "time-up",
+        Some(nephroid::Outcome::Stopped) => "interrupted",
+        None => "failed",
+    };
+    let values = json!({
+        "outcome": how,
+        "done": session.done(),
+        "passes": session.total(),
+        "elapsed_s": (elapsed.as_secs_f64() * 1e3).round() / 1e3,
+        "grain": session.film().grain(),
+    });
+    progress.end(&grain::line(session.film()).unwrap_or_default(), values);
 }
 
 /// So many passes, in words.
@@ -163,35 +192,28 @@ pub fn passes(n: u64) -> String {
     if n == 1 { "1 pass".to_owned() } else { format!("{n} passes") }
 }
 
-/// The noise of a film, in words.
-pub fn noise_line(film: &Film) -> Option<String> {
-    let percent = 100.0 * film.mean_relative_noise()?;
-    let digits = if percent < 0.995 { 2 } else { usize::from(percent < 9.95) };
-    Some(format!("noise {percent:.digits$} % (mean standard error of a pixel, over the mean luminance)"))
-}
-
 /// Writes every output that can be written; whether all could.
 pub fn write(
     outputs: &[Output],
     film: &Film,
     info: &PictureInfo,
-    quiet: bool,
+    progress: &Progress,
     timings: &mut Timings,
 ) -> bool {
     let start = Instant::now();
     let mut all = true;
     for output in outputs {
         match output.write(film, info) {
-            Ok(()) if quiet => {}
-            Ok(()) => say::say(&format!(
-                "wrote {} ({}x{}, {})",
-                output.path().display(),
-                film.width(),
-                film.height(),
-                passes(film.passes())
-            )),
+            Ok(()) => {
+                let (path, width, height) = (output.path().display(), film.width(), film.height());
+                let count = film.passes();
+                let values =
+                    json!({ "path": path.to_string(), "width": width, "height": height, "passes": count });
+                let text = format!("wrote {path} ({width}x{height}, {})", passes(count));
+                progress.object("wrote", &text, values);
+            }
             Err(error) => {
-                say::error(&format!("{error}\n  = help: {}", error.help()));
+                progress.error(&format!("{error}\n  = help: {}", error.help()));
                 all = false;
             }
         }
@@ -201,9 +223,9 @@ pub fn write(
 }
 
 /// Says which files the pictures will replace.
-pub fn say_replaced(outputs: &[Output]) {
+pub fn say_replaced(progress: &Progress, outputs: &[Output]) {
     for output in outputs.iter().filter(|output| output.path().exists()) {
-        say::say(&format!("{} is there already: it will be replaced", output.path().display()));
+        progress.line(&format!("{} is there already: it will be replaced", output.path().display()));
     }
 }
 

@@ -7,6 +7,7 @@ mod convert;
 mod describe;
 mod drive;
 mod failure;
+mod grain;
 mod info;
 mod manual;
 mod merge;

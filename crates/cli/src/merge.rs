@@ -8,9 +8,11 @@ use nephroid::{
 
 use crate::args::MergeArgs;
 use crate::checkpoint;
-use crate::drive::{noise_line, passes, say_replaced, write};
+use crate::drive::{passes, say_replaced, write};
 use crate::failure::{FAILED, Failure, OK, Outcome};
+use crate::grain;
 use crate::info::bytes;
+use crate::progress::Progress;
 use crate::render::{checked, refusal};
 use crate::say;
 
@@ -44,8 +46,9 @@ pub fn run(args: &MergeArgs) -> Outcome {
     if !replaced.is_empty() {
         return Err(Failure::Usage(replaced.iter().map(refusal).collect()));
     }
+    let progress = Progress::plain(args.quiet);
+    say_replaced(&progress, &outputs);
     if !args.quiet {
-        say_replaced(&outputs);
         let missing = gaps(film.pass_ranges());
         let note = if missing.is_empty() {
             String::new()
@@ -76,10 +79,10 @@ pub fn run(args: &MergeArgs) -> Outcome {
         }
     }
     let picture = PictureInfo::new(&info.desc, info.hash);
-    if !write(&outputs, &film, &picture, args.quiet, &mut Timings::default()) {
+    if !write(&outputs, &film, &picture, &progress, &mut Timings::default()) {
         code = FAILED;
     }
-    if let Some(noise) = noise_line(&film).filter(|_| !args.quiet) {
+    if let Some(noise) = grain::line(&film).filter(|_| !args.quiet) {
         say::say(&noise);
     }
     Ok(code)

@@ -1,30 +1,45 @@
-//! How a render tells of itself: a bar on a terminal, now and then a line in a pipe, or nothing.
+//! How a render tells of itself, on standard error: a bar on a terminal, now and then a line in a pipe, JSON for programs,
+//! or nothing.
 
 use std::io::IsTerminal;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use nephroid::Remaining;
+use nephroid::{Film, Remaining};
+use serde_json::{Value, json};
 
-use crate::say::say;
+use crate::args::{How, RunArgs};
+use crate::grain::percent;
+use crate::say;
 
-/// Longest silence in a pipe while passes come.
-const SILENCE: Duration = Duration::from_secs(10);
+/// Shortest time between two lines of passes.
+const BETWEEN_LINES: Duration = Duration::from_secs(5);
+/// Shortest time between two objects of passes.
+const BETWEEN_OBJECTS: Duration = Duration::from_millis(500);
+/// Shortest time between two looks at the grain.
+const BETWEEN_LOOKS: Duration = Duration::from_secs(1);
 
 /// Where progress goes; always standard error.
 #[derive(Clone, Debug)]
-pub enum Progress {
+pub struct Progress {
+    form: Form,
+    /// When a pass was told last.
+    told: Option<Instant>,
+    /// When the grain was looked at last, and what it was.
+    grain: Option<(Instant, f64)>,
+}
+
+/// In which form.
+#[derive(Clone, Debug)]
+enum Form {
     /// A bar that redraws itself.
     Bar(ProgressBar),
     /// Lines.
-    Lines {
-        /// When the last one was printed.
-        last: Instant,
-        /// Tenths of the render that were told.
-        tenths: u64,
-    },
+    Lines,
+    /// An object a line.
+    Json,
     /// Nothing.
-    Quiet,
+    None,
 }
 
 /// How far a render is.
@@ -38,67 +53,159 @@ pub struct Position {
     pub elapsed: Duration,
     /// Until it ends.
     pub remaining: Remaining,
+    /// The grain that ends it.
+    pub goal: Option<f32>,
 }
 
 impl Progress {
-    /// What suits standard error.
-    pub fn new(quiet: bool) -> Self {
-        if quiet {
-            return Self::Quiet;
+    /// What was asked for, or else suits standard error.
+    pub fn new(args: &RunArgs) -> Self {
+        let form = match args.progress {
+            _ if args.quiet => Form::None,
+            Some(How::None) => Form::None,
+            Some(How::Json) => Form::Json,
+            Some(How::Lines) => Form::Lines,
+            Some(How::Bar) => Form::Bar(bar()),
+            None if std::io::stderr().is_terminal() => Form::Bar(bar()),
+            None => Form::Lines,
+        };
+        Self { form, told: None, grain: None }
+    }
+
+    /// Lines, or nothing.
+    pub fn plain(quiet: bool) -> Self {
+        Self { form: if quiet { Form::None } else { Form::Lines }, told: None, grain: None }
+    }
+
+    /// The same form without a bar.
+    pub fn before(args: &RunArgs) -> Self {
+        match args.progress {
+            Some(How::Json) if !args.quiet => Self { form: Form::Json, told: None, grain: None },
+            Some(How::None) => Self::plain(true),
+            Some(How::Json | How::Bar | How::Lines) | None => Self::plain(args.quiet),
         }
-        if !std::io::stderr().is_terminal() {
-            return Self::Lines { last: Instant::now(), tenths: 0 };
+    }
+
+    /// What may be wrong with a scene: said whatever the form.
+    pub fn diagnostics(&self, text: &str) {
+        match (&self.form, text.trim_end()) {
+            (_, "") => {}
+            (Form::Json, text) => self.object("warning", text, json!({})),
+            (Form::Bar(_) | Form::Lines | Form::None, text) => say::say(&say::painted(text)),
         }
-        let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::stderr());
-        if let Ok(style) = ProgressStyle::with_template("{msg:18} {wide_bar} {prefix}") {
-            bar.set_style(style);
-        }
-        bar.enable_steady_tick(Duration::from_millis(500));
-        Self::Bar(bar)
     }
 
     /// A line that stays.
     pub fn line(&self, text: &str) {
-        match self {
-            Self::Bar(bar) => bar.suspend(|| say(text)),
-            Self::Lines { .. } => say(text),
-            Self::Quiet => {}
+        self.object("note", text, json!({}));
+    }
+
+    /// The pictures show so many passes now.
+    pub fn preview(&self, passes: u64) {
+        if let Form::Json = self.form {
+            self.object("preview", "", json!({ "passes": passes }));
+        }
+    }
+
+    /// How it ended: a line, or for programs these values.
+    pub fn end(&self, text: &str, values: Value) {
+        match self.form {
+            Form::Json => self.object("end", text, values),
+            Form::Bar(_) | Form::Lines if text.is_empty() => {}
+            Form::Bar(_) | Form::Lines | Form::None => self.line(text),
+        }
+    }
+
+    /// A line that stays; for programs an object with `event` and these values in its place.
+    pub fn object(&self, event: &str, text: &str, values: Value) {
+        match &self.form {
+            Form::Bar(bar) => bar.suspend(|| say::say(text)),
+            Form::Lines => say::say(text),
+            Form::Json => {
+                let mut values = values;
+                values["event"] = event.into();
+                if ["note", "warning", "error"].contains(&event) {
+                    values["text"] = text.into();
+                }
+                say::say(&values.to_string());
+            }
+            Form::None => {}
+        }
+    }
+
+    /// What may be wrong: said whatever the form.
+    pub fn warn(&self, text: &str) {
+        match &self.form {
+            Form::None => say::say(&say::warning(text)),
+            Form::Json => self.object("warning", text, json!({})),
+            Form::Bar(_) | Form::Lines => self.line(&say::warning(text)),
+        }
+    }
+
+    /// What went wrong: said whatever the form.
+    pub fn error(&self, text: &str) {
+        match &self.form {
+            Form::Json => self.object("error", text, json!({})),
+            Form::Bar(_) | Form::Lines | Form::None => say::error(text),
         }
     }
 
     /// What is being done now.
     pub fn doing(&self, what: &'static str) {
-        if let Self::Bar(bar) = self {
+        if let Form::Bar(bar) = &self.form {
             bar.set_message(what);
         }
     }
 
-    /// A pass is done.
-    pub fn pass(&mut self, at: &Position) {
-        match self {
-            Self::Bar(bar) => {
-                let of = at.passes.map_or(String::new(), |passes| format!("/{passes}"));
-                bar.set_prefix(format!("{}{of} passes, {}", at.done, left(at.remaining)));
+    /// A pass is done, and in the film.
+    pub fn pass(&mut self, at: &Position, film: &Film) {
+        let since = self.told.map(|told| told.elapsed());
+        let is_due = |between| since.is_none_or(|since| since >= between);
+        let is_last = at.passes == Some(at.done);
+        match &self.form {
+            Form::Bar(bar) => {
+                let bar = bar.clone();
+                let grain = self.grain(film);
+                bar.set_prefix(bar_text(at, grain));
                 bar.set_position((at.share() * 1000.0) as u64);
             }
-            Self::Lines { last, tenths } => {
-                let now = (at.share() * 10.0 + 1e-9) as u64;
-                if now > *tenths || last.elapsed() >= SILENCE {
-                    *tenths = now;
-                    *last = Instant::now();
-                    say(&pass_line(at));
-                }
+            Form::Lines if is_last || is_due(BETWEEN_LINES) => {
+                let grain = film.grain();
+                say::say(&pass_line(at, grain));
+                self.told = Some(Instant::now());
             }
-            Self::Quiet => {}
+            Form::Json if is_last || is_due(BETWEEN_OBJECTS) => {
+                let grain = film.grain();
+                self.object("pass", "", object(at, grain));
+                self.told = Some(Instant::now());
+            }
+            Form::Lines | Form::Json | Form::None => {}
         }
     }
 
     /// Takes the bar away.
     pub fn finish(&self) {
-        if let Self::Bar(bar) = self {
+        if let Form::Bar(bar) = &self.form {
             bar.finish_and_clear();
         }
     }
+
+    /// The grain of a film, as of a second ago at most.
+    fn grain(&mut self, film: &Film) -> Option<f64> {
+        if self.grain.is_none_or(|(looked, _)| looked.elapsed() >= BETWEEN_LOOKS) {
+            self.grain = film.grain().map(|grain| (Instant::now(), grain));
+        }
+        self.grain.map(|(_, grain)| grain)
+    }
+}
+
+fn bar() -> ProgressBar {
+    let bar = ProgressBar::with_draw_target(Some(1000), ProgressDrawTarget::stderr());
+    if let Ok(style) = ProgressStyle::with_template("{msg:17} {wide_bar} {prefix}") {
+        bar.set_style(style);
+    }
+    bar.enable_steady_tick(Duration::from_millis(500));
+    bar
 }
 
 impl Position {
@@ -106,16 +213,23 @@ impl Position {
     fn share(&self) -> f64 {
         let passes = self.passes.map_or(0.0, |passes| self.done as f64 / passes.max(1) as f64);
         let elapsed = self.elapsed.as_secs_f64();
-        let time = self.remaining.time.map_or(0.0, |left| elapsed / (elapsed + left.as_secs_f64()).max(1e-9));
-        passes.max(time).min(1.0)
+        let of = |left: Duration| elapsed / (elapsed + left.as_secs_f64()).max(1e-9);
+        let others = self.remaining.time.into_iter().chain(self.remaining.grain);
+        others.map(of).fold(passes, f64::max).min(1.0)
     }
 }
 
-fn pass_line(at: &Position) -> String {
+fn bar_text(at: &Position, grain: Option<f64>) -> String {
+    let of = at.passes.map_or(String::new(), |passes| format!("/{passes}"));
+    format!("{}{of} passes{}, {}", at.done, grain_text(at, grain), left(at.remaining))
+}
+
+fn pass_line(at: &Position, grain: Option<f64>) -> String {
     let mut line = format!("pass {}", at.done);
     if let Some(passes) = at.passes {
         line += &format!("/{passes} ({} %)", at.done * 100 / passes.max(1));
     }
+    line += &grain_text(at, grain);
     line += &format!(", {} elapsed", duration(at.elapsed));
     if at.passes != Some(at.done) && at.remaining.first().is_some() {
         line += &format!(", {}", left(at.remaining));
@@ -123,17 +237,41 @@ fn pass_line(at: &Position) -> String {
     line
 }
 
-/// Until the end; by both limits where there are two.
+fn grain_text(at: &Position, grain: Option<f64>) -> String {
+    let goal = at.goal.map_or(String::new(), |goal| format!(" (to {})", percent(goal.into())));
+    grain.map_or(String::new(), |grain| format!(", grain {}{goal}", percent(grain)))
+}
+
+/// A pass for programs; what is not known is null.
+fn object(at: &Position, grain: Option<f64>) -> Value {
+    let seconds = |time: Duration| (time.as_secs_f64() * 1000.0).round() / 1000.0;
+    json!({
+        "done": at.done,
+        "passes": at.passes,
+        "share": (at.share() * 1e4).round() / 1e4,
+        "elapsed_s": seconds(at.elapsed),
+        "left_s": at.remaining.first().map(seconds),
+        "grain": grain.map(|grain| (grain * 1e6).round() / 1e6),
+    })
+}
+
+/// Until the end; where there are two limits, by the nearest, and by the others too.
 fn left(remaining: Remaining) -> String {
-    match (remaining.passes, remaining.time) {
-        (Some(passes), Some(time)) if passes <= time => {
-            format!("{} left ({} of the time)", duration(passes), duration(time))
+    let limits = [
+        (remaining.passes, "to the last pass"),
+        (remaining.time, "of the time"),
+        (remaining.grain, "to that grain"),
+    ];
+    let mut known: Vec<(Duration, &str)> =
+        limits.into_iter().filter_map(|(left, what)| Some((left?, what))).collect();
+    // Stable: passes before time where they are equal.
+    known.sort_by_key(|(left, _)| *left);
+    match known.as_slice() {
+        [] => "no end".to_owned(),
+        [(first, _)] => format!("{} left", duration(*first)),
+        [(first, _), (second, what), ..] => {
+            format!("{} left ({} {what})", duration(*first), duration(*second))
         }
-        (Some(passes), Some(time)) => {
-            format!("{} left of the time ({} to the last pass)", duration(time), duration(passes))
-        }
-        (Some(one), None) | (None, Some(one)) => format!("{} left", duration(one)),
-        (None, None) => "no end".to_owned(),
     }
 }
 
@@ -165,31 +303,44 @@ mod tests {
         );
     }
 
+    fn at(done: u64, passes: Option<u64>, elapsed: u64, left: [Option<u64>; 3]) -> Position {
+        let s = Duration::from_secs;
+        let [to_last, time, to_grain] = left.map(|left| left.map(s));
+        let remaining = Remaining { passes: to_last, time, grain: to_grain };
+        Position { done, passes, elapsed: s(elapsed), remaining, goal: to_grain.map(|_| 0.02) }
+    }
+
     #[test]
     fn lines() {
-        let s = Duration::from_secs;
-        let line = |done, passes, elapsed, to_last: Option<u64>, time: Option<u64>| {
-            let remaining = Remaining { passes: to_last.map(s), time: time.map(s) };
-            pass_line(&Position { done, passes, elapsed: s(elapsed), remaining })
-        };
+        let line = |done, passes, elapsed, left, grain| pass_line(&at(done, passes, elapsed, left), grain);
         let said = [
-            line(3, Some(12), 6, Some(18), None),
-            line(12, Some(12), 24, Some(0), None),
-            line(3, None, 6, None, Some(54)),
-            line(3, Some(12), 6, Some(18), Some(54)),
-            line(3, Some(120), 6, Some(240), Some(54)),
-            line(3, None, 6, None, None),
+            line(3, Some(12), 6, [Some(18), None, None], None),
+            line(12, Some(12), 24, [Some(0), None, None], Some(0.0412)),
+            line(3, None, 6, [None, Some(54), None], None),
+            line(3, Some(12), 6, [Some(18), Some(54), None], None),
+            line(3, Some(120), 6, [Some(240), Some(54), None], None),
+            line(9, None, 6, [None, Some(54), Some(30)], Some(0.071)),
+            line(3, None, 6, [None; 3], None),
         ];
         assert_eq!(
             said,
             [
                 "pass 3/12 (25 %), 6.0 s elapsed, 18 s left",
-                "pass 12/12 (100 %), 24 s elapsed",
+                "pass 12/12 (100 %), grain 4.1 %, 24 s elapsed",
                 "pass 3, 6.0 s elapsed, 54 s left",
                 "pass 3/12 (25 %), 6.0 s elapsed, 18 s left (54 s of the time)",
-                "pass 3/120 (2 %), 6.0 s elapsed, 54 s left of the time (4 min 00 s to the last pass)",
+                "pass 3/120 (2 %), 6.0 s elapsed, 54 s left (4 min 00 s to the last pass)",
+                "pass 9, grain 7.1 % (to 2.0 %), 6.0 s elapsed, 30 s left (54 s of the time)",
                 "pass 3, 6.0 s elapsed",
             ]
         );
+    }
+
+    #[test]
+    fn the_nearest_limit_says_how_much_is_done() {
+        assert_eq!(at(3, Some(12), 6, [Some(18), None, None]).share(), 0.25);
+        assert_eq!(at(3, Some(12), 6, [Some(18), Some(6), None]).share(), 0.5);
+        assert_eq!(at(3, None, 6, [None, Some(18), Some(2)]).share(), 0.75);
+        assert_eq!(at(3, None, 6, [None; 3]).share(), 0.0);
     }
 }

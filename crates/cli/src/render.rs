@@ -7,13 +7,15 @@ use nephroid::{
     check_outputs, desc, overwritten_inputs, scene_hash,
 };
 
+use serde_json::json;
+
 use crate::args::{Layers, RenderArgs};
 use crate::checkpoint;
 use crate::drive::{Drive, absolute, drive, say_replaced};
 use crate::failure::{Failure, OK, Outcome};
 use crate::places;
+use crate::progress::Progress;
 use crate::replay::scene_arguments;
-use crate::say;
 use crate::scene::{Described, compiled, describe};
 use crate::signals::{INTERRUPTED, Interrupt};
 
@@ -58,9 +60,9 @@ fn several(args: &RenderArgs, scenes: &[PathBuf], shares: &[&[Output]], messages
     let interrupt = Interrupt::catch()?;
     let mut code = OK;
     for (i, (scene, outputs)) in scenes.iter().zip(shares).enumerate() {
-        if !args.run.quiet {
-            say::say(&format!("{} ({} of {})", scene.display(), i + 1, scenes.len()));
-        }
+        let values = json!({ "scene": scene.display().to_string(), "number": i + 1, "of": scenes.len() });
+        let text = format!("{} ({} of {})", scene.display(), i + 1, scenes.len());
+        Progress::before(&args.run).object("scene", &text, values);
         let one = read(args, scene, outputs, Vec::new()).and_then(|described| {
             render(args, Prepared { scene, outputs, described, file: None }, &interrupt)
         });
@@ -103,9 +105,8 @@ fn read(
 fn render(args: &RenderArgs, prepared: Prepared<'_>, interrupt: &Interrupt) -> Outcome {
     let Prepared { scene: path, outputs, mut described, file } = prepared;
     let (scene, warnings) = compiled(&mut described, args.run.threads)?;
-    if !warnings.is_empty() {
-        say::say(say::painted(&warnings).trim_end());
-    }
+    let progress = Progress::before(&args.run);
+    progress.diagnostics(&warnings);
     let desc = &described.desc;
     let job = wanted_passes(args, Job::new(desc, scene.scene).map_err(Failure::usage)?);
     let mut session = Session::new(job, args.run.threads).map_err(|e| match e {
@@ -114,6 +115,9 @@ fn render(args: &RenderArgs, prepared: Prepared<'_>, interrupt: &Interrupt) -> O
     })?;
     if let Some(time) = args.time {
         session = session.with_time(time);
+    }
+    if let Some(noise) = desc.render.noise {
+        session = session.with_grain(noise.into());
     }
     let hash = match file {
         None => scene_hash(desc).map_err(Failure::runtime)?,
@@ -131,20 +135,21 @@ fn render(args: &RenderArgs, prepared: Prepared<'_>, interrupt: &Interrupt) -> O
         }
     };
     let info = PictureInfo::new(desc, hash);
-    if !args.run.quiet {
-        say_replaced(outputs);
-    }
+    say_replaced(&progress, outputs);
     let again = scene_arguments(path, &args.changes);
     let timings = described.timings;
-    drive(session, Drive { outputs, info: &info, run: args.run, timings, again: &again }, interrupt)
+    let goal = desc.render.noise;
+    drive(session, Drive { outputs, info: &info, run: args.run, timings, again: &again, goal }, interrupt)
 }
 
-/// The passes that were asked for: a range, a number, those of the scene, or with nothing but a time, without end.
+/// The passes that were asked for: a range, a number, those of the scene, or with nothing but a time or a grain, without
+/// end.
 fn wanted_passes(args: &RenderArgs, job: Job) -> Job {
-    match (&args.pass_range, args.changes.passes, args.time) {
-        (Some(range), ..) => Job { passes: range.clone(), ..job },
-        (None, None, Some(_)) => job.endless(),
-        _ => job,
+    let ends = args.time.is_some() || args.changes.noise.is_some();
+    match (&args.pass_range, args.changes.passes) {
+        (Some(range), _) => Job { passes: range.clone(), ..job },
+        (None, None) if ends => job.endless(),
+        (None, _) => job,
     }
 }
 

@@ -2,16 +2,16 @@
 
 use nephroid::{
     CheckpointError, CheckpointErrorKind, CompileError, Extent, PictureInfo, Resumed, SessionError, Sources,
-    load, overwritten_inputs, render_all, resume,
+    Wanted, load, overwritten_inputs, render_all, resume,
 };
 
 use crate::args::ResumeArgs;
 use crate::checkpoint;
 use crate::drive::{Drive, drive, say_replaced};
 use crate::failure::{Failure, Outcome};
+use crate::progress::Progress;
 use crate::render::{checked, refusal};
 use crate::replay::quoted;
-use crate::say;
 use crate::signals::Interrupt;
 
 /// Goes on with a checkpoint.
@@ -22,8 +22,8 @@ pub fn run(args: &ResumeArgs) -> Outcome {
         return Err(Failure::Usage(messages));
     }
     let extent = args.passes.unwrap_or(Extent::AsAsked);
-    let every = args.checkpoint_every;
-    let resumed = resume(&args.checkpoint, extent, args.time, every, args.run.threads, &load);
+    let wanted = Wanted { extent, time: args.time, grain: args.noise };
+    let resumed = resume(&args.checkpoint, wanted, args.checkpoint_every, args.run.threads, &load);
     let Resumed { mut session, info, warnings, timings } = resumed.map_err(|e| failure(&e))?;
     let outputs = if args.output.is_empty() { &info.outputs } else { &args.output };
     let outputs = checked(outputs, &mut messages);
@@ -34,23 +34,21 @@ pub fn run(args: &ResumeArgs) -> Outcome {
     if !args.output.is_empty() {
         session = session.with_outputs(crate::drive::absolute(&outputs));
     }
-    if !warnings.is_empty() {
-        say::say(say::painted(&render_all(&warnings, &Sources::default())).trim_end());
-    }
-    if !args.run.quiet {
-        let (name, done) = (args.checkpoint.display(), session.done());
-        say::say(&match (session.total(), session.missing()) {
-            (Some(total), 0) => format!("{name} has all of its {total} passes: nothing is left to render"),
-            (Some(total), _) => format!("going on with {name}: {done} of {total} passes are done"),
-            (None, _) => format!("going on with {name}: {done} passes are done"),
-        });
-    }
+    let progress = Progress::before(&args.run);
+    progress.diagnostics(&render_all(&warnings, &Sources::default()));
+    let (name, done) = (args.checkpoint.display(), session.done());
+    progress.line(&match (session.total(), session.missing()) {
+        (Some(total), 0) => format!("{name} has all of its {total} passes: nothing is left to render"),
+        (Some(total), _) => format!("going on with {name}: {done} of {total} passes are done"),
+        (None, _) => format!("going on with {name}: {done} passes are done"),
+    });
     let picture = PictureInfo::new(&info.desc, info.hash);
-    if !args.run.quiet && !args.output.is_empty() {
-        say_replaced(&outputs);
+    if !args.output.is_empty() {
+        say_replaced(&progress, &outputs);
     }
     let again = quoted(&args.checkpoint.to_string_lossy());
-    let how = Drive { outputs: &outputs, info: &picture, run: args.run, timings, again: &again };
+    let goal = args.noise.or(info.desc.render.noise);
+    let how = Drive { outputs: &outputs, info: &picture, run: args.run, timings, again: &again, goal };
     drive(session, how, &Interrupt::catch()?)
 }
 

@@ -98,5 +98,6 @@ fn overrides(changes: &Changes) -> Overrides {
         seed: changes.seed,
         exposure: changes.exposure,
         max_depth: changes.max_depth,
+        noise: changes.noise,
     }
 }

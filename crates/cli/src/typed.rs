@@ -90,6 +90,10 @@ const FOREIGN: &[(&[&str], &str)] = &[
     (&["--bounces", "--max-bounces", "--depth"], "--max-depth N bounds the length of paths"),
     (&["--time-limit", "--timeout", "--max-time", "--minutes"], "--time 5m ends the render after so long"),
     (
+        &["--noise-threshold", "--error", "--target-error", "--adaptive", "--threshold"],
+        "--noise 2% ends the render once its grain is so fine",
+    ),
+    (
         &["--verbose", "-v", "--debug", "--stats"],
         "--timings says what each part took; `nephroid info` what is in a scene",
     ),
@@ -97,7 +101,7 @@ const FOREIGN: &[(&[&str], &str)] = &[
     (&["--force", "--overwrite", "-y"], "pictures are replaced without asking; checkpoints never are"),
     (
         &["--gui", "--view", "--viewer", "--interactive", "--display-server", "--window-preview"],
-        "there is no viewer; -o NAME.png writes a picture",
+        "there is no viewer: while it renders, the PNG is rewritten every few seconds (--preview-every)",
     ),
     (
         &["--frame", "--frames", "--animation", "-a", "--anim", "--frame-start"],

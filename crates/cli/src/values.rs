@@ -1,8 +1,11 @@
 //! Values of flags as people type them.
 
 use std::ops::Range;
+use std::time::Duration;
 
 use nephroid::{Extent, Film};
+
+use crate::span;
 
 /// As in scene files.
 const MAX_PIXELS: u64 = 1 << 30;
@@ -105,9 +108,50 @@ pub fn extent(text: &str) -> Result<Extent, String> {
     }
 }
 
+/// 2%: a share of a hundredth to a hundred percent.
+///
+/// # Errors
+/// What is wrong, for people.
+pub fn noise(text: &str) -> Result<f32, String> {
+    let wrong = || "a noise is in percent, as 2% or 0.5%".to_owned();
+    let percent: f32 =
+        text.trim().strip_suffix('%').ok_or_else(wrong)?.trim().parse().map_err(|_| wrong())?;
+    if (0.01..=100.0).contains(&percent) {
+        return Ok(percent / 100.0);
+    }
+    Err("a noise lies between 0.01% and 100%".to_owned())
+}
+
+/// How often pictures are rewritten while passes come; `None`: never.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Previews(pub Option<Duration>);
+
+/// A time, or off.
+///
+/// # Errors
+/// What is wrong, for people.
+pub fn previews(text: &str) -> Result<Previews, String> {
+    match text.trim() {
+        "off" => Ok(Previews(None)),
+        text => span::parse(text).map(|time| Previews(Some(time))).map_err(|e| format!("{e}; or off")),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn noises_and_previews() {
+        assert_eq!(noise("2%"), Ok(0.02));
+        assert_eq!(noise("0.5 %"), Ok(0.005));
+        for wrong in ["", "%", "2", "0.02", "-2%", "nan%", "inf%", "0%", "101%"] {
+            assert!(noise(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(previews("off"), Ok(Previews(None)));
+        assert_eq!(previews("5s"), Ok(Previews(Some(Duration::from_secs(5)))));
+        assert!(previews("never").unwrap_err().contains("off"));
+    }
 
     #[test]
     fn sizes() {

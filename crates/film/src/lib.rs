@@ -13,6 +13,7 @@ mod film_file;
 mod filter;
 mod fixed;
 mod flip;
+mod grain;
 mod layer;
 mod named;
 mod noise;

@@ -121,9 +121,9 @@ fn noise_of_one_pass_is_unknown() {
     let one = film(0..1, [1.0, 1.0], 0);
     let exr = encode_exr(&one, &Default::default()).unwrap();
     assert!(!exr.windows(7).any(|w| w == b"noise.Y"));
-    assert_eq!(one.mean_relative_noise(), None);
+    assert_eq!(one.grain(), None);
     let two = film(0..2, [1.0, 1.0], 0);
-    assert!(two.mean_relative_noise().unwrap() > 0.0);
+    assert!(two.grain().unwrap() > 0.0);
 }
 
 proptest! {

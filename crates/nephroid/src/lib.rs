@@ -56,6 +56,6 @@ pub use session::{
     Checkpoint, CheckpointError, CheckpointErrorKind, CheckpointFile, CheckpointInfo, CompileError, Compiled,
     Control, Event, Extent, Job, MergeError, Outcome, Output, OutputKind, Overrides, Phase, PictureError,
     PictureInfo, Remaining, ReplayError, ReplayKey, Replayed, Resumed, SceneHash, Session, SessionError,
-    Timings, Warning, check_outputs, compile, film_bytes, gaps, merge, overwritten_inputs, replay, resume,
+    Timings, Wanted, Warning, check_outputs, compile, film_bytes, gaps, merge, overwritten_inputs, replay, resume,
     said, scene_hash, settings, survey, write_checkpoint,
 };

@@ -516,6 +516,7 @@ impl Dice {
                 passes: 1 + self.below(1_000_000_000) as u32,
                 seed: self.next(),
                 max_depth: self.coin().then(|| 1 + self.below(u32::MAX as u64) as u32),
+                noise: self.coin().then(|| 0.001 + 0.9 * self.unit()),
             };
             desc.film = Film {
                 size: [1 + self.below(20_000) as u32, 1 + self.below(20_000) as u32],

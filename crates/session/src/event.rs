@@ -6,7 +6,7 @@ use std::time::Duration;
 use film::{Film, FilmNonFinite, OutputError};
 use integrators::{MapReport, NonFinitePhoton};
 
-use crate::{Phase, Remaining, ReplayKey};
+use crate::{Phase, PictureError, Remaining, ReplayKey};
 
 /// What a session tells its observer.
 #[derive(Debug)]
@@ -70,6 +70,18 @@ pub enum Event<'a> {
         passes: u64,
         /// Why.
         error: &'a OutputError,
+    },
+    /// The pictures show so many passes now ([`crate::Session::with_previews`]).
+    PreviewWritten {
+        /// Passes in them.
+        passes: u64,
+        /// What developing and writing took, beside the render.
+        elapsed: Duration,
+    },
+    /// A picture could not be written while passes come; told once. The render goes on, and tries again.
+    PreviewFailed {
+        /// Why.
+        error: &'a PictureError,
     },
     /// Something is not as it should be; the render goes on.
     Warning(Warning),

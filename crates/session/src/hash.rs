@@ -58,7 +58,7 @@ fn with_plain_settings(desc: SceneDesc) -> SceneDesc {
     let (film, render) = (Film::default(), Render::default());
     SceneDesc {
         base: PathBuf::new(),
-        render: Render { passes: render.passes, seed: render.seed, ..desc.render },
+        render: Render { passes: render.passes, seed: render.seed, noise: render.noise, ..desc.render },
         film: Film { exposure: film.exposure, view: film.view, ..desc.film },
         ..desc
     }
@@ -230,6 +230,7 @@ mod tests {
         same.base = PathBuf::from("elsewhere");
         same.render.passes += 1;
         same.render.seed += 1;
+        same.render.noise = Some(0.01);
         same.film.exposure += 1.0;
         assert_eq!(scene_hash(&same).unwrap(), hash);
 

@@ -18,6 +18,8 @@ pub struct Overrides {
     pub exposure: Option<f32>,
     /// Scattering events on a path, at most.
     pub max_depth: Option<u32>,
+    /// Grain below which no more passes are needed.
+    pub noise: Option<f32>,
 }
 
 impl Overrides {
@@ -37,6 +39,7 @@ impl Overrides {
         render.seed = self.seed.unwrap_or(render.seed);
         replace(&mut render.passes, self.passes);
         render.max_depth = self.max_depth.or(render.max_depth);
+        render.noise = self.noise.or(render.noise);
     }
 }
 
@@ -62,6 +65,7 @@ mod tests {
             seed: Some(9),
             exposure: Some(-1.5),
             max_depth: Some(2),
+            noise: Some(0.02),
             ..Overrides::default()
         };
         overrides.apply(&mut desc);
@@ -69,6 +73,7 @@ mod tests {
         assert_eq!(desc.film.exposure, -1.5);
         assert_eq!(desc.render.integrator, IntegratorKind::Path);
         assert_eq!((desc.render.passes, desc.render.seed, desc.render.max_depth), (3, 9, Some(2)));
+        assert_eq!(desc.render.noise, Some(0.02));
         Overrides { size: Some([7, 5]), width: Some(100), ..Overrides::default() }.apply(&mut desc);
         assert_eq!(desc.film.size, [7, 5]);
     }

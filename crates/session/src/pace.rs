@@ -48,12 +48,14 @@ pub struct Remaining {
     pub passes: Option<Duration>,
     /// Until the time is up.
     pub time: Option<Duration>,
+    /// Until the grain is as fine as was asked for; `None` also before it was looked at first.
+    pub grain: Option<Duration>,
 }
 
 impl Remaining {
     /// What comes first; `None` where nothing but the observer ends the render.
     pub fn first(&self) -> Option<Duration> {
-        self.passes.into_iter().chain(self.time).min()
+        self.passes.into_iter().chain(self.time).chain(self.grain).min()
     }
 }
 
@@ -77,8 +79,9 @@ mod tests {
     #[test]
     fn the_first_limit_counts() {
         let s = Duration::from_secs;
-        let first = |passes, time| Remaining { passes, time }.first();
-        assert_eq!(first(None, None), None);
+        let first = |passes, time| Remaining { passes, time, grain: Some(s(9)) }.first();
+        assert_eq!(Remaining::default().first(), None);
+        assert_eq!(first(None, None), Some(s(9)));
         assert_eq!(first(Some(s(3)), None), Some(s(3)));
         assert_eq!(first(Some(s(3)), Some(s(2))), Some(s(2)));
     }

@@ -22,6 +22,24 @@ pub enum Extent {
     More(u64),
 }
 
+/// What a resumed render shall do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wanted {
+    /// How many passes it shall have.
+    pub extent: Extent,
+    /// How much more time it has. Without, and as many passes as were asked for, what is left of the time asked for, if any.
+    pub time: Option<Duration>,
+    /// Grain that ends it ([`Session::with_grain`]); `None`: what was asked for when it began, if any.
+    pub grain: Option<f32>,
+}
+
+impl From<Extent> for Wanted {
+    /// So many passes, and time and grain as they were asked for.
+    fn from(extent: Extent) -> Self {
+        Self { extent, time: None, grain: None }
+    }
+}
+
 /// A render that can go on.
 #[derive(Debug)]
 pub struct Resumed {
@@ -39,15 +57,12 @@ pub struct Resumed {
 /// before). The session saves itself to the same file `every` so often. Where the scene came from a file of another
 /// program, `read` reads that again.
 ///
-/// `time`: that much more. Without, and as many passes as were asked for, what is left of the time asked for, if any.
-///
 /// # Errors
 /// Where the checkpoint cannot be read or written, files of its scene were changed, or nothing is left of what was
 /// asked for because the time is spent. No error: all passes are there; [`Session::missing`] is then 0.
 pub fn resume(
     path: &Path,
-    extent: Extent,
-    time: Option<Duration>,
+    wanted: Wanted,
     every: Duration,
     threads: usize,
     read: ReadScene<'_>,
@@ -65,19 +80,29 @@ pub fn resume(
     if !changed.is_empty() {
         return Err(error(CheckpointErrorKind::Files(changed)));
     }
-    let time = time_left(&info, extent, time).map_err(&error)?;
+    let time = time_left(&info, wanted).map_err(&error)?;
     let desc = timings.time(Phase::Load, || info.scene(read)).map_err(&error)?;
     let compiled = timings.time(Phase::Compile, || compile(&desc, threads));
     let compiled = compiled.map_err(|e| error(CheckpointErrorKind::Scene(e)))?;
     let session_error = |e| error(CheckpointErrorKind::Session(e));
     let job = Job::new(&desc, compiled.scene).map_err(session_error)?;
-    let job = extended(Job { passes: info.passes.clone(), ..job }, &film, extent, time.is_some());
+    let grain = wanted.grain.or(info.desc.render.noise);
+    let end = match (time.is_some() || wanted.grain.is_some(), grain) {
+        (true, _) => End::Anew,
+        (false, Some(_)) => End::AsBefore,
+        (false, None) => End::None,
+    };
+    let job = extended(Job { passes: info.passes.clone(), ..job }, &film, wanted.extent, end);
     let job = job.map_err(&error)?;
     let mut session = Session::new(job, threads).and_then(|s| s.with_film(film)).map_err(session_error)?;
     if let Some(time) = time {
         session = session.with_time(time);
     }
+    if let Some(grain) = grain {
+        session = session.with_grain(grain.into());
+    }
     let mut next = info.clone();
+    next.desc.render.noise = grain;
     next.timings.merge(&timings);
     // The total, as of a render that was not interrupted.
     next.time = None;
@@ -87,12 +112,8 @@ pub fn resume(
 }
 
 /// The time that a run has.
-fn time_left(
-    info: &CheckpointInfo,
-    extent: Extent,
-    time: Option<Duration>,
-) -> Result<Option<Duration>, CheckpointErrorKind> {
-    match (time, extent, info.time) {
+fn time_left(info: &CheckpointInfo, wanted: Wanted) -> Result<Option<Duration>, CheckpointErrorKind> {
+    match (wanted.time, wanted.extent, info.time.filter(|_| wanted.grain.is_none())) {
         (Some(time), ..) => Ok(Some(time)),
         (None, Extent::AsAsked, Some(asked)) => {
             let left = asked.saturating_sub(info.elapsed);
@@ -109,18 +130,30 @@ fn time_left(
     }
 }
 
+/// What else than passes ends a render.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum End {
+    None,
+    /// A grain that was asked for when it began.
+    AsBefore,
+    /// A time, or a grain that is asked for now.
+    Anew,
+}
+
 /// The job with the passes that are to be there in the end.
-fn extended(job: Job, film: &Film, extent: Extent, timed: bool) -> Result<Job, CheckpointErrorKind> {
+fn extended(job: Job, film: &Film, extent: Extent, end: End) -> Result<Job, CheckpointErrorKind> {
     let start = job.passes.start;
     let present = film.pass_ranges();
     let passes = match extent {
-        Extent::AsAsked if !has_end(&job.passes) && !timed => {
+        Extent::AsAsked if !has_end(&job.passes) && end == End::None => {
             let done = film.passes();
             return Err(CheckpointErrorKind::Passes(format!(
-                "it has {done} passes, and how many there should be was never said; --time or --passes says it"
+                "it has {done} passes, and how many there should be was never said; --time, --noise or --passes says it"
             )));
         }
-        Extent::AsAsked if timed && missing(&job.passes, present).is_empty() => return Ok(job.endless()),
+        Extent::AsAsked if end == End::Anew && missing(&job.passes, present).is_empty() => {
+            return Ok(job.endless());
+        }
         Extent::AsAsked => job.passes.clone(),
         Extent::Total(total) if total < film.passes() => {
             let done = film.passes();

@@ -10,8 +10,10 @@ use par::Workers;
 use scene::Scene;
 
 use crate::checkpoint::{Attempt, Saver};
+use crate::grain::{Goal, is_looked_at};
 use crate::job::check_memory;
 use crate::pace::Pace;
+use crate::preview::{Previewer, Written};
 use crate::{Control, Event, Outcome, Phase, Remaining, Timings, Warning};
 
 /// The work.
@@ -26,15 +28,20 @@ impl Run<'_> {
     /// Renders these passes, then saves.
     pub(crate) fn all(&mut self, missing: &[Range<u64>]) -> Result<Outcome, FilmError> {
         let outcome = self.passes(missing);
+        self.fold.is_over = true;
         let start = Instant::now();
         let folded = self.fold.flush();
         self.fold.timings.add(Phase::EyePasses, start.elapsed());
+        self.fold.end_previews();
         self.fold.save_at_end();
         folded.and(outcome)
     }
 
     fn passes(&mut self, missing: &[Range<u64>]) -> Result<Outcome, FilmError> {
         for (i, pass) in missing.iter().cloned().flatten().enumerate() {
+            if self.is_fine_enough()? {
+                return Ok(Outcome::FineEnough);
+            }
             if i > 0 && self.fold.is_too_late(self.wanted_maps(pass).is_some()) {
                 return Ok(Outcome::TimeUp);
             }
@@ -45,6 +52,20 @@ impl Run<'_> {
             self.pass(pass)?;
         }
         Ok(Outcome::Finished)
+    }
+
+    /// Whether the grain of all passes so far is what was asked for, if it is looked at after so many.
+    fn is_fine_enough(&mut self) -> Result<bool, FilmError> {
+        let passes = self.fold.film.passes() + u64::from(self.fold.pending.is_some());
+        if self.fold.goal.is_none() || !is_looked_at(passes) {
+            return Ok(false);
+        }
+        let start = Instant::now();
+        let looked = self.workers.run(|| self.fold.flush().map(|()| self.fold.film.grain()));
+        self.fold.timings.add(Phase::EyePasses, start.elapsed());
+        let Some(goal) = &mut self.fold.goal else { return Ok(false) };
+        goal.found = looked?.map(|grain| (passes, grain));
+        Ok(goal.is_reached())
     }
 
     fn pass(&mut self, pass: u64) -> Result<(), FilmError> {
@@ -109,11 +130,15 @@ pub(crate) struct Fold<'a> {
     pub last: u64,
     pub start: Instant,
     pub time: Option<Duration>,
+    pub goal: Option<Goal>,
     pub pace: Pace,
     pub timings: &'a mut Timings,
     pub saver: Option<&'a mut Saver>,
     pub snapshots: Option<Duration>,
     pub last_snapshot: Instant,
+    pub previewer: Option<&'a mut Previewer>,
+    /// No pass is begun any more.
+    pub is_over: bool,
 }
 
 impl Fold<'_> {
@@ -160,7 +185,10 @@ impl Fold<'_> {
             let left = total.saturating_sub(done);
             self.pace.of(left, maps.min(left))
         });
-        Remaining { passes, time: self.time.map(|time| time.saturating_sub(elapsed)) }
+        let maps_each = |passes: u64| if map_index(self.last) > map_index(pass) { passes } else { 0 };
+        let grain =
+            self.goal.and_then(|g| g.left(done, |left| self.pace.of(left, maps_each(left).min(maps))));
+        Remaining { passes, time: self.time.map(|time| time.saturating_sub(elapsed)), grain }
     }
 
     /// Hands out copies of the film where it is time.
@@ -168,15 +196,22 @@ impl Fold<'_> {
         if let Some(attempt) = self.saver.as_mut().and_then(|s| s.poll()) {
             self.tell_of(&attempt);
         }
+        self.poll_preview();
         let snapshot = self.snapshots.is_some_and(|every| self.last_snapshot.elapsed() >= every);
         let save = self.saver.as_ref().is_some_and(|s| s.is_due());
-        if !snapshot && !save {
+        // The last picture is not far.
+        let preview = !self.is_over && !self.stop && self.previewer.as_ref().is_some_and(|p| p.is_due());
+        if !snapshot && !save && !preview {
             return;
         }
         if save {
             self.tell_saver();
         }
+        let start = Instant::now();
         let copy = check_memory(self.film.memory_bytes()).is_ok().then(|| Arc::new(self.film.clone()));
+        if let (Some(previewer), Some(copy), true) = (&mut self.previewer, &copy, preview) {
+            previewer.start(copy.clone(), start.elapsed());
+        }
         let attempt = match (&mut self.saver, &copy) {
             (Some(saver), Some(copy)) if save => saver.start(copy.clone()),
             (Some(saver), None) if save => Some(saver.save(self.film)),
@@ -188,6 +223,32 @@ impl Fold<'_> {
         if let (Some(film), true) = (copy, snapshot) {
             self.last_snapshot = Instant::now();
             self.tell(Event::Snapshot { film: &film });
+        }
+    }
+
+    /// Tells what became of a preview.
+    fn poll_preview(&mut self) {
+        if let Some(written) = self.previewer.as_mut().and_then(|p| p.poll()) {
+            self.tell_of_preview(&written);
+        }
+    }
+
+    /// Waits for the preview that is under way: whoever writes the picture next is the last.
+    fn end_previews(&mut self) {
+        if let Some(written) = self.previewer.as_mut().and_then(|p| p.wait()) {
+            self.tell_of_preview(&written);
+        }
+    }
+
+    fn tell_of_preview(&mut self, written: &Written) {
+        let Written { passes, elapsed, .. } = *written;
+        match &written.result {
+            Ok(()) => self.tell(Event::PreviewWritten { passes, elapsed }),
+            Err(error) => {
+                if self.previewer.as_mut().is_some_and(|p| p.tells()) {
+                    self.tell(Event::PreviewFailed { error });
+                }
+            }
         }
     }
 

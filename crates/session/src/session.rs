@@ -10,17 +10,21 @@ use par::Workers;
 use scene::Scene;
 
 use crate::checkpoint::{CheckpointFile, CheckpointInfo, Saver};
+use crate::grain::Goal;
 use crate::job::{check_memory, has_end, layer_bytes};
 use crate::pace::Pace;
+use crate::preview::Previewer;
 use crate::ranges::{count, missing};
 use crate::run::{Fold, Run};
-use crate::{Control, Event, Job, SessionError, Timings, film_bytes};
+use crate::{Control, Event, Job, Output, PictureInfo, SessionError, Timings, film_bytes};
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
     /// All passes are in the film.
     Finished,
+    /// The grain is as fine as was asked for.
+    FineEnough,
     /// The time is up; [`Session::run`] goes on where it stopped.
     TimeUp,
     /// The observer stopped it; [`Session::run`] goes on where it stopped.
@@ -34,6 +38,7 @@ pub struct Session {
     workers: Workers,
     passes: Range<u64>,
     time: Option<Duration>,
+    grain: Option<f64>,
     maps: Option<(u64, Maps)>,
     film: Film,
     timings: Timings,
@@ -41,6 +46,7 @@ pub struct Session {
     /// Passes of the film that the checkpoint file holds already.
     saved: Option<u64>,
     snapshots: Option<Duration>,
+    previewer: Option<Previewer>,
 }
 
 impl fmt::Debug for Session {
@@ -101,11 +107,13 @@ impl Session {
             workers,
             passes,
             time: None,
+            grain: None,
             maps: None,
             timings: Timings::default(),
             saver: None,
             saved: None,
             snapshots: None,
+            previewer: None,
         })
     }
 
@@ -123,6 +131,19 @@ impl Session {
     /// one at least.
     pub fn with_time(self, time: Duration) -> Self {
         Self { time: Some(time), ..self }
+    }
+
+    /// Ends a run once [`Film::grain`] is at most `grain`. It is looked at after the eighth pass first, then after each
+    /// eighth of the passes that there are: how many passes the film has in the end does not depend on where runs stopped.
+    pub fn with_grain(self, grain: f64) -> Self {
+        Self { grain: Some(grain), ..self }
+    }
+
+    /// Rewrites those outputs that are PNG while passes come: after the first, then `every` so often, but so rarely that it
+    /// takes a twentieth of one core's time at most. Each is written from a copy of the film on a thread of its own; where there is
+    /// no memory for that, there is none. The first that fails is told as an event. None is under way when a run has ended.
+    pub fn with_previews(self, outputs: &[Output], info: &PictureInfo, every: Duration) -> Self {
+        Self { previewer: Some(Previewer::new(outputs, info, every)), ..self }
     }
 
     /// Saves the render to a file `every` so often and at the end of each run. `info` is that of the scene; what it
@@ -188,11 +209,14 @@ impl Session {
             pending: None,
             start,
             time: self.time,
+            goal: self.grain.map(Goal::new),
             pace: Pace::default(),
             timings: &mut self.timings,
             saver: self.saver.as_mut(),
             snapshots: self.snapshots,
             last_snapshot: start,
+            previewer: self.previewer.as_mut(),
+            is_over: false,
         };
         let mut run = Run { scene: &self.scene, workers: &self.workers, maps: &mut self.maps, fold };
         let outcome = run.all(&missing);

@@ -69,6 +69,100 @@ fn fake(passes: Range<u64>) -> Session {
     Session::with_integrator(job(&desc()).scene, Box::new(Fake), passes, 1).unwrap()
 }
 
+/// 1.5 and 0.5 by turns, so that the grain after n passes is known.
+struct Flicker;
+
+impl Integrator for Flicker {
+    fn name(&self) -> &'static str {
+        "flicker"
+    }
+    fn map_index(&self, _: u64) -> Option<u64> {
+        None
+    }
+    fn trace_photons(&self, _: &Scene, _: u64) -> TracedPhotons {
+        TracedPhotons::default()
+    }
+    fn build_maps(&self, _: &Scene, _: TracedPhotons) -> Maps {
+        Maps::default()
+    }
+    fn render(&self, scene: &Scene, _: Option<&Maps>, pass: u64) -> Result<PassFilm, FilmError> {
+        let [w, h] = scene.resolution().map(|n| n as usize);
+        let value = 1.0 + if pass.is_multiple_of(2) { 0.5 } else { -0.5 };
+        PassFilm::new(w, h, vec![PixelSample { direct: [value; 3], ..PixelSample::default() }; w * h])
+    }
+    fn replay_pixel(&self, _: &Scene, _: Option<&Maps>, _: u64, _: [usize; 2]) -> PathRecord {
+        PathRecord::default()
+    }
+    fn photon_paths(&self, _: &Scene) -> Vec<(PhotonKind, u64)> {
+        Vec::new()
+    }
+    fn replay_photon(&self, _: &Scene, _: u64, _: PhotonKind, _: u64) -> PathRecord {
+        PathRecord::default()
+    }
+}
+
+#[test]
+fn a_render_ends_once_the_grain_is_fine_enough() {
+    let session =
+        |passes| Session::with_integrator(job(&desc()).scene, Box::new(Flicker), passes, 2).unwrap();
+    // 0.5 / 1.1 / √(n − 1) ≤ 0.1 from n = 22 on; looked at are the even passes there.
+    let mut one = session(0..1000).with_grain(0.1);
+    assert_eq!(one.run(&mut |_| Control::Continue), Ok(Outcome::FineEnough));
+    assert_eq!(one.done(), 22);
+    assert_eq!(one.run(&mut |_| Control::Continue), Ok(Outcome::FineEnough), "it stays so");
+    assert_eq!(one.done(), 22);
+    // Stopped on the way.
+    let mut cut = session(0..1000).with_grain(0.1);
+    let mut runs = 0;
+    while cut.run(&mut |_| Control::Stop) == Ok(Outcome::Stopped) {
+        runs += 1;
+    }
+    assert!(runs > 5, "{runs}");
+    assert_eq!(cut.film(), one.film());
+    // The passes end it first; and how long it will take is told.
+    let mut few = session(0..12).with_grain(0.1);
+    let mut told = Vec::new();
+    let outcome = few.run(&mut |event| {
+        if let Event::PassDone { done, remaining, .. } = event {
+            told.push((done, remaining.grain.is_some()));
+        }
+        Control::Continue
+    });
+    assert_eq!(outcome, Ok(Outcome::Finished));
+    assert_eq!(told[6..9], [(7, false), (8, false), (9, true)], "after the first look");
+}
+
+#[test]
+fn previews_come_beside_the_passes_and_never_after_the_run() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| Output::new(&folder.path().join(name)).unwrap();
+    let info = PictureInfo::new(&SceneDesc::default(), crate::SceneHash(1));
+    let every = Duration::from_nanos(1);
+    let outputs = [at("a.png"), at("a.exr")];
+    let mut session = fake(0..200).with_previews(&outputs, &info, every);
+    let mut passes = Vec::new();
+    session
+        .run(&mut |event| {
+            if let Event::PreviewWritten { passes: shown, .. } = event {
+                passes.push(shown);
+            }
+            Control::Continue
+        })
+        .unwrap();
+    assert_eq!(passes.first(), Some(&1), "from the first pass on");
+    assert!(passes.is_sorted());
+    assert!(folder.path().join("a.png").exists() && !folder.path().join("a.exr").exists());
+    // A folder that is gone is told once, and nothing stops.
+    let gone = [at("none/a.png")];
+    let mut session = fake(0..200).with_previews(&gone, &info, every);
+    let mut failures = 0;
+    let outcome = session.run(&mut |event| {
+        failures += u32::from(matches!(event, Event::PreviewFailed { .. }));
+        Control::Continue
+    });
+    assert_eq!((outcome, failures, session.done()), (Ok(Outcome::Finished), 1, 200));
+}
+
 #[test]
 fn events_come_in_order_and_maps_are_kept_while_their_index_is() {
     let mut said = Vec::new();

@@ -81,7 +81,7 @@ fn straight_resumed_and_merged_renders_give_the_same_bytes() {
         let steps = [(Extent::More(1), begun + 1), (Extent::Total(6), 6), (Extent::Total(8), 8)];
         for (threads, (extent, done)) in (1..).zip(steps) {
             let mut again =
-                resume(&at("a.neph"), extent, None, MINUTE, threads, &scenefile::load).unwrap().session;
+                resume(&at("a.neph"), extent.into(), MINUTE, threads, &scenefile::load).unwrap().session;
             assert_eq!(again.run(&mut |_| Control::Continue), Ok(Outcome::Finished));
             assert_eq!((again.done(), again.is_saved()), (done, Some(true)));
         }
@@ -100,7 +100,7 @@ fn straight_resumed_and_merged_renders_give_the_same_bytes() {
         assert!(exr(&all.film, &all.info.desc, folder.path()) == expected, "{integrator:?}");
         // And a gap is filled by going on.
         let mut filled =
-            resume(&at("f.neph"), Extent::AsAsked, None, MINUTE, 1, &scenefile::load).unwrap().session;
+            resume(&at("f.neph"), Extent::AsAsked.into(), MINUTE, 1, &scenefile::load).unwrap().session;
         assert_eq!((filled.done(), filled.missing()), (4, 1));
         filled.run(&mut |_| Control::Continue).unwrap();
         assert_eq!(filled.film().pass_ranges(), std::slice::from_ref(&(3..8)));
@@ -149,7 +149,7 @@ fn files_that_were_changed_are_named() {
     let folder = tempfile::tempdir().unwrap();
     let at = |name: &str| folder.path().join(name);
     let a = part(&desc(folder.path(), IntegratorKind::Path), 0..2, &at("a.neph"));
-    let said = || resume(&a, Extent::More(1), None, MINUTE, 1, &scenefile::load).unwrap_err().to_string();
+    let said = || resume(&a, Extent::More(1).into(), MINUTE, 1, &scenefile::load).unwrap_err().to_string();
     std::fs::write(at("wood.png"), film::encode_png_bytes(1, 1, &[[0; 3]], &[]).unwrap()).unwrap();
     assert!(said().contains("wood.png") && said().contains("changed"), "{}", said());
     std::fs::remove_file(at("wood.png")).unwrap();
@@ -200,7 +200,7 @@ fn imported_scenes_are_read_again() {
     let mut first = session(&large, 0..2, 2).with_checkpoint(file, info, MINUTE);
     assert_eq!(first.run(&mut |_| Control::Continue), Ok(Outcome::Finished));
     drop(first);
-    let go_on = |changed| resume(&at("a.neph"), Extent::Total(4), None, MINUTE, 1, &read(changed));
+    let go_on = |changed| resume(&at("a.neph"), Extent::Total(4).into(), MINUTE, 1, &read(changed));
     let said = go_on(true).unwrap_err().to_string();
     assert!(said.contains("a.other") && said.contains("changed"), "{said}");
     let mut second = go_on(false).unwrap().session;
@@ -225,7 +225,7 @@ fn time_that_was_asked_for_is_spent_once() {
         .with_checkpoint(file, info, MINUTE);
     session.run(&mut |_| Control::Stop).unwrap();
     drop(session);
-    let mut resumed = resume(&path, Extent::AsAsked, None, MINUTE, 1, &scenefile::load).unwrap();
+    let mut resumed = resume(&path, Extent::AsAsked.into(), MINUTE, 1, &scenefile::load).unwrap();
     assert_eq!(resumed.info.time, Some(Duration::from_secs(3600)));
     let mut left = Duration::ZERO;
     let observer = &mut |event: Event<'_>| {
@@ -241,13 +241,13 @@ fn time_that_was_asked_for_is_spent_once() {
     assert!(left + info.elapsed > Duration::from_secs(3590), "{left:?} {info:?}");
     assert_eq!(info.time, Some(Duration::from_secs(3600)));
     // Two more passes, and nothing is said of time any more.
-    let mut more = resume(&path, Extent::More(2), None, MINUTE, 1, &scenefile::load).unwrap().session;
+    let mut more = resume(&path, Extent::More(2).into(), MINUTE, 1, &scenefile::load).unwrap().session;
     assert_eq!(more.run(&mut |_| Control::Continue), Ok(Outcome::Finished));
     drop(more);
-    let again = resume(&path, Extent::AsAsked, None, MINUTE, 1, &scenefile::load).unwrap();
+    let again = resume(&path, Extent::AsAsked.into(), MINUTE, 1, &scenefile::load).unwrap();
     assert_eq!((again.session.missing(), again.session.done()), (0, 4));
     drop(again);
-    let wrong = resume(&path, Extent::Total(1), None, MINUTE, 1, &scenefile::load).unwrap_err().to_string();
+    let wrong = resume(&path, Extent::Total(1).into(), MINUTE, 1, &scenefile::load).unwrap_err().to_string();
     assert!(wrong.contains("4 passes already"), "{wrong}");
 }
 

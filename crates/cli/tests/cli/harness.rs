@@ -197,14 +197,15 @@ pub fn masked(text: &str) -> String {
     let mut out = String::new();
     for line in text.split_inclusive('\n') {
         let words: Vec<&str> = line.split(' ').collect();
-        let unit =
-            |w: &str| ["s", "KiB", "MiB", "B", "%", "stored"].contains(&w.trim_end_matches([',', '\n', ')']));
+        let unit = |w: &str| {
+            ["s", "KiB", "MiB", "B", "%", "stored"].contains(&w.trim_end_matches([',', ':', ';', '\n', ')']))
+        };
         let number = |w: &str| w.parse::<f64>().is_ok();
         let masked: Vec<&str> = words
             .iter()
             .enumerate()
             .map(|(i, w)| {
-                let named = i > 0 && words[i - 1] == "radius";
+                let named = i > 0 && ["radius", "about"].contains(&words[i - 1]);
                 if named || number(w) && words.get(i + 1).is_some_and(|w| unit(w)) { "_" } else { w }
             })
             .collect();

@@ -52,21 +52,21 @@ fn what_is_said_of_a_checkpoint() {
     let ran = place.ok(&with(&PATH, &["--checkpoint", "a.neph"]));
     expect![[r#"
         pass 1/2 (50 %), _ s elapsed, _ s left
-        pass 2/2 (100 %), _ s elapsed
+        pass 2/2 (100 %), grain _ %, _ s elapsed
         saved a.neph (2 passes, _ KiB)
         wrote box.png (16x12, 2 passes)
-        noise _ % (mean standard error of a pixel, over the mean luminance)
+        grain 58 %: a first draft; clean (1.0 %) after about _ passes
     "#]]
     .assert_eq(&masked(&ran.err));
     assert_eq!(place.files(), ["a.neph", "box.png", "box.toml"]);
     let ran = place.ok(&["resume", "a.neph", "--passes", "+2", "-o", "b.exr"]);
     expect![[r#"
         going on with a.neph: 2 of 4 passes are done
-        pass 3/4 (75 %), _ s elapsed, _ s left
-        pass 4/4 (100 %), _ s elapsed
+        pass 3/4 (75 %), grain _ %, _ s elapsed, _ s left
+        pass 4/4 (100 %), grain _ %, _ s elapsed
         saved a.neph (4 passes, _ KiB)
         wrote b.exr (16x12, 4 passes)
-        noise _ % (mean standard error of a pixel, over the mean luminance)
+        grain 47 %: a first draft; clean (1.0 %) after about _ passes
     "#]]
     .assert_eq(&masked(&ran.err));
     let out = place.ok(&["info", "a.neph"]).out;
@@ -79,7 +79,7 @@ fn what_is_said_of_a_checkpoint() {
         holds       4 passes: passes 0..4
         asked for   passes 0..4
         took        _ s
-        noise       _ % (mean standard error of a pixel, over the mean luminance)"#]]
+        grain       47 %: a first draft; clean (1.0 %) after about _ passes"#]]
     .assert_eq(masked(&lines.join("\n")).trim_end());
     let ran = place.ok(&["resume", "a.neph"]);
     assert!(ran.err.contains("nothing is left to render") && ran.err.contains("b.exr"), "{}", ran.err);

@@ -110,11 +110,13 @@ pub struct Render {
     pub seed: u64,
     /// Scattering events on a path, at most; 1 is direct light only, `None` unlimited.
     pub max_depth: Option<u32>,
+    /// Grain of the picture, as a share of a pixel's luminance, below which no more passes are needed.
+    pub noise: Option<f32>,
 }
 
 impl Default for Render {
     fn default() -> Self {
-        Self { integrator: IntegratorKind::Auto, passes: 128, seed: 0, max_depth: None }
+        Self { integrator: IntegratorKind::Auto, passes: 128, seed: 0, max_depth: None, noise: None }
     }
 }
 

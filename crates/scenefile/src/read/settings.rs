@@ -22,10 +22,11 @@ pub(super) fn render(report: &mut Report, r: &Reader<'_>, desc: &mut SceneDesc) 
     let passes = r.integer(report, "passes");
     let seed = r.integer(report, "seed");
     let max_depth = r.optional_integer(report, "max_depth");
-    if let (Some(integrator), Some(passes), Some(seed), Some(max_depth)) =
-        (integrator, passes, seed, max_depth)
+    let noise = r.optional_number(report, "noise");
+    if let (Some(integrator), Some(passes), Some(seed), Some(max_depth), Some(noise)) =
+        (integrator, passes, seed, max_depth, noise)
     {
-        desc.render = Render { integrator, passes, seed, max_depth };
+        desc.render = Render { integrator, passes, seed, max_depth, noise };
     }
 }
 

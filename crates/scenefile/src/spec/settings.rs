@@ -38,6 +38,13 @@ pub const RENDER: Section = Section {
             Absent("unlimited"),
             "The longest path, counted in scattering events; 1 is direct light only.",
         ),
+        key(
+            "noise",
+            Number(Range { max: 1.0, open_max: false, ..POSITIVE }),
+            "",
+            Absent("all passes are made"),
+            "Ends the render once the grain of a typical pixel is so small: 0.02 is 2 %. `passes` is then the most.",
+        ),
     ],
     example: "[render]\nintegrator = \"path\"\npasses = 64\nmax_depth = 8\n",
 };

@@ -83,6 +83,7 @@ fn render(desc: &SceneDesc) -> Fields {
     if let Some(depth) = render.max_depth {
         f.integer("max_depth", depth);
     }
+    f.optional_number("noise", render.noise);
     f
 }
 
