@@ -346,9 +346,9 @@ pub struct CompareArgs {
 /// Arguments of `describe`.
 #[derive(Debug, Args)]
 pub struct DescribeArgs {
-    /// What to describe: a table, a kind or a key, as camera, dielectric or film.exposure [default: the list of
-    /// topics].
-    pub topic: Option<String>,
+    /// What to describe: a table, a kind or a key, as camera, dielectric or film.exposure, or words to look for, as gold,
+    /// clearcoat or depth of field [default: the list of topics].
+    pub topic: Vec<String>,
 }
 
 /// The algorithms, as in scene files.

@@ -4,6 +4,7 @@ use std::fmt;
 
 use crate::diagnostic::CODES;
 use crate::nearest::nearest;
+use crate::search::search;
 use crate::spec::{Form, Key, Kind, Preset, SECTIONS, Section, Variant};
 
 /// A topic that does not exist, and the nearest that does.
@@ -28,7 +29,7 @@ impl fmt::Display for UnknownTopic {
 impl std::error::Error for UnknownTopic {}
 
 /// Topics that are no section.
-const PAGES: &[(&str, &str, &str)] = &[
+pub(crate) const PAGES: &[(&str, &str, &str)] = &[
     (
         "colors",
         "How colours are written.",
@@ -43,12 +44,38 @@ const PAGES: &[(&str, &str, &str)] = &[
         "units",
         "Which units quantities have.",
         "Lengths are scene units; take metres where powers shall be physical. Angles are degrees.\n\
+         A lamp has one amount of light, in watts or in what the eye sees of them:\n\
          \x20 radiance     W/(sr m^2)   of surfaces and environments\n\
+         \x20 nits         cd/m^2       the same; 179 nits of white are 1 W/(sr m^2)\n\
          \x20 intensity    W/sr         of point and spot lights\n\
+         \x20 candela      cd           the same; 179 cd of white are 1 W/sr\n\
          \x20 irradiance   W/m^2        of directional lights\n\
+         \x20 lux          lm/m^2       the same; 179 lux of white are 1 W/m^2\n\
          \x20 power        W            the total flux of any lamp\n\
+         \x20 lumens       lm           the same; 179 lm of white are 1 W\n\
+         \x20 temperature  K            colours any of these like a black body, instead of color\n\
+         179 lm are one watt of light of equal energy over the visible range. That is not what a lamp draws:\n\
+         a label of 9 W and 806 lm means lumens = 806.\n\
+         \x20 a candle           12 lm, 1 cd, 1900 K       a sheet of paper on a desk    500 lux\n\
+         \x20 a 60-W bulb        800 lm, 2700 K            an overcast sky               10 000 lux\n\
+         \x20 a downlight        500 to 3000 lm, 4000 K    the sun at noon               100 000 lux\n\
+         \x20 a screen           100 to 500 nits, 6500 K   the sun's disc                1.6e9 nits\n\
          Each holds for each of the channels red, green, blue. The picture is radiance; film.exposure\n\
          and film.view turn it into display colours.\n",
+    ),
+    (
+        "formats",
+        "Scenes of other programs: what is read, and what to export.",
+        "`nephroid FILE` renders these as they are; `nephroid convert FILE OUT.toml` makes a scene of them\n\
+         to go on with:\n\
+         \x20 .gltf .glb     glTF 2.0: from Blender (File > Export > glTF 2.0, with Cameras and Punctual\n\
+         \x20                Lights), SketchUp, Cinema 4D, Maya, Houdini, most shops of models\n\
+         \x20 .pbrt          pbrt, version 4, or 3 where its names differ\n\
+         \x20 .xml           Mitsuba, version 3, or 0.6 where it differs\n\
+         \x20 .obj .ply      meshes; also as objects of a scene (shape = \"mesh\")\n\
+         .blend, .fbx, .usd, .dae, .abc and the like are not read: open them in Blender or in the program that\n\
+         wrote them, and export glTF. Pictures (.hdr, .exr, .png, .jpg) are textures or surroundings, and\n\
+         luminaires (.ies, .ldt) lamps of a scene. `--set` and `--camera` change scenes of all kinds.\n",
     ),
     (
         "overrides",
@@ -76,7 +103,8 @@ pub fn topics() -> Vec<(&'static str, &'static str)> {
 }
 
 /// The reference of a topic: a section ("camera"), a kind ("sphere", "materials.glass"), a key ("camera.fov"), or
-/// one of the pages "colors", "units", "overrides", "errors". An empty topic lists all.
+/// one of the pages "colors", "units", "formats", "overrides", "errors". An empty topic lists all. Where a word or several are none of these,
+/// what speaks of them, the best first.
 ///
 /// Plain text of at most about 100 columns that ends with a newline.
 ///
@@ -88,7 +116,8 @@ pub fn describe(topic: &str) -> Result<String, UnknownTopic> {
     }
     let name = topic.trim_matches(['[', ']']).trim_end_matches(".NAME");
     if name == "errors" {
-        return Ok(CODES.iter().map(|(code, doc)| format!("{code:<20}{doc}\n")).collect());
+        let width = column(CODES.iter().map(|(code, _)| *code));
+        return Ok(CODES.iter().map(|(code, doc)| format!("{code:<width$}{doc}\n")).collect());
     }
     if let Some((_, doc, text)) = PAGES.iter().find(|page| page.0 == name) {
         return Ok(format!("{doc}\n\n{text}"));
@@ -127,9 +156,19 @@ pub fn describe(topic: &str) -> Result<String, UnknownTopic> {
                 .collect());
         }
     }
+    if first.is_empty()
+        && let Some(found) = search(topic)
+    {
+        return Ok(found);
+    }
     let names: Vec<&str> = topics().into_iter().map(|(name, _)| name).collect();
     let nearest = nearest(second, names).map(str::to_owned);
     Err(UnknownTopic { topic: topic.to_owned(), nearest })
+}
+
+/// Width of a column of names, with a gap behind the longest.
+fn column<'a>(names: impl Iterator<Item = &'a str>) -> usize {
+    names.map(|name| name.chars().count()).max().unwrap_or(0) + 2
 }
 
 fn overview() -> String {
@@ -140,8 +179,9 @@ fn overview() -> String {
             continue;
         }
         out += &format!("{:<20}{}\n", section.header(), section.doc);
+        let width = column(section.variants().iter().map(|v| v.name)).max(16);
         for variant in section.variants() {
-            out += &format!("    {:<16}{}\n", variant.name, variant.doc);
+            out += &format!("    {:<width$}{}\n", variant.name, variant.doc);
         }
     }
     out += "\nAnd:\n";
@@ -163,8 +203,9 @@ fn section_text(section: &Section) -> String {
             None => "required".to_owned(),
         };
         out += &format!("\n{}  one of these words, {default}\n", switch.key);
+        let width = column(switch.variants.iter().map(|v| v.name)).max(16);
         for variant in switch.variants {
-            out += &format!("    {:<16}{}\n", variant.name, wrapped(variant.doc, 20));
+            out += &format!("    {:<width$}{}\n", variant.name, wrapped(variant.doc, width + 4));
         }
     }
     if !section.keys.is_empty() {
@@ -235,7 +276,7 @@ fn default_text(preset: &Preset) -> Option<String> {
 }
 
 /// Lines of at most about 100 columns; all but the first are indented.
-fn wrapped(text: &str, indent: usize) -> String {
+pub(crate) fn wrapped(text: &str, indent: usize) -> String {
     let mut out = String::new();
     let mut column = indent;
     for word in text.split(' ') {

@@ -36,7 +36,7 @@ pub struct Label {
 /// One mistake or doubt.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// A short stable name of the kind of mistake; this crate's are in [`CODES`].
+    /// A short stable name of the kind of mistake; all are in [`CODES`].
     pub code: &'static str,
     /// How bad it is.
     pub severity: Severity,
@@ -95,7 +95,7 @@ impl Diagnostic {
     }
 }
 
-/// Every code of this crate and what it means.
+/// Every code of a diagnostic, of this crate and of those that read scenes of other programs and compile, and what it means.
 pub const CODES: &[(&str, &str)] = &[
     ("syntax", "The text is not TOML."),
     ("file", "The scene file cannot be read, or is not text."),
@@ -121,6 +121,39 @@ pub const CODES: &[(&str, &str)] = &[
     ("no-light", "Nothing emits light (a warning)."),
     ("empty-scene", "There is no object (a warning)."),
     ("override", "An override cannot be applied."),
+    ("material-cycle", "A material is made of itself."),
+    ("bad-camera", "A camera of these values shows nothing."),
+    ("bad-shape", "A shape of these values has no surface."),
+    ("bad-mesh", "A mesh file is damaged, or says what makes no sense."),
+    ("bad-image", "A picture cannot be decoded."),
+    ("bad-light", "A light of these values shines nowhere, or is not finite."),
+    ("bad-photometry", "A file of a luminaire is damaged, or says what makes no sense."),
+    ("photometry", "A file of a luminaire departs from its standard, or leaves something open (a warning)."),
+    ("no-area", "A lamp has no area to shine from."),
+    ("singular-transform", "A placement flattens space, or is not finite."),
+    ("unknown-metal", "No metal has this name."),
+    ("unknown-ior", "No glass or liquid has this name."),
+    ("camera-inside", "The camera is inside of something, perhaps unmeant (a warning)."),
+    (
+        "unsupported",
+        "Something of another program's scene is not rendered: what is done instead (a warning).",
+    ),
+    ("unknown-directive", "pbrt: no directive has this name."),
+    ("unknown-element", "Mitsuba: no element has this name."),
+    ("unknown-attribute", "Mitsuba: the element has no such attribute (a warning)."),
+    ("unknown-parameter", "Another program's scene: the object has no such parameter (a warning)."),
+    ("missing-parameter", "Another program's scene: a parameter without default is absent."),
+    ("parameter", "Another program's scene: the value of a parameter makes no sense."),
+    ("unknown-name", "Another program's scene: nothing has this name."),
+    ("unknown-id", "Mitsuba: nothing has this id."),
+    ("undefined", "Mitsuba: nothing says what a `$name` stands for."),
+    ("duplicate", "Another program's scene: something is given twice."),
+    ("cycle", "Another program's scene: something is made of itself."),
+    ("node-cycle", "glTF: a node holds itself, or nodes are nested too deeply."),
+    ("mesh", "Another program's scene: a mesh is damaged, or says what makes no sense."),
+    ("spectrum", "Another program's scene: a spectrum makes no sense."),
+    ("camera", "Which of several cameras is used (a note)."),
+    ("scene", "Which of several scenes is rendered (a note)."),
     ("more", "Further mistakes were left out."),
 ];
 

@@ -15,6 +15,7 @@ mod nearest;
 mod overrides;
 mod read;
 mod reader;
+mod search;
 mod snippet;
 pub mod source;
 pub mod spec;

@@ -391,3 +391,66 @@ fn names_are_unique_within_reach() {
         }
     }
 }
+
+/// Codes that a source gives to diagnostics: the literals that stand first in calls that make one.
+fn codes(source: &str) -> Vec<&str> {
+    const MAKERS: &[&str] = &[
+        "Diagnostic::error(",
+        "Diagnostic::warning(",
+        "Diagnostic::note(",
+        "report.error(",
+        "report.note(",
+        ".error(",
+        ".note(",
+        "Fault::new(",
+        " bad(",
+        ".unknown(",
+    ];
+    let source = source.split("#[cfg(test)]").next().unwrap_or_default();
+    let mut found = Vec::new();
+    for maker in MAKERS {
+        for (at, _) in source.match_indices(maker) {
+            let rest = source[at + maker.len()..].trim_start();
+            let rest = rest.strip_prefix("report,").unwrap_or(rest).trim_start();
+            let literal = rest.strip_prefix('"').and_then(|rest| rest.split_once('"'));
+            let is_code =
+                |text: &&str| !text.is_empty() && text.chars().all(|c| c.is_ascii_lowercase() || c == '-');
+            found.extend(literal.map(|(text, _)| text).filter(is_code));
+        }
+    }
+    found
+}
+
+#[test]
+fn every_code_of_the_program_is_described() {
+    use nephroid_scenefile::diagnostic::CODES;
+
+    fn sources(folder: &Path, into: &mut Vec<String>) {
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                sources(&path, into);
+            } else if path.extension().is_some_and(|e| e == "rs") {
+                into.push(std::fs::read_to_string(path).unwrap());
+            }
+        }
+    }
+    assert_eq!(
+        codes("Diagnostic::error(\n    \"planted-code\", x); report.error(\"b\", y)"),
+        ["planted-code", "b", "b"]
+    );
+    let mut texts = Vec::new();
+    for name in ["scenefile", "import", "scene", "session"] {
+        sources(&Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name).join("src"), &mut texts);
+    }
+    let used: std::collections::BTreeSet<&str> = texts.iter().flat_map(|text| codes(text)).collect();
+    assert!(used.len() > 40, "{used:?}");
+    let undescribed: Vec<_> =
+        used.iter().filter(|code| !CODES.iter().any(|(known, _)| known == *code)).collect();
+    assert!(undescribed.is_empty(), "put into `CODES`: {undescribed:?}");
+    for (code, _) in CODES {
+        let literal = format!("\"{code}\"");
+        let uses: usize = texts.iter().map(|text| text.matches(&literal).count()).sum();
+        assert!(uses > 1, "nothing says {code} any more");
+    }
+}

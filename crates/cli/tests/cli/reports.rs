@@ -146,6 +146,18 @@ fn describe_knows_what_was_meant() {
 }
 
 #[test]
+fn describe_looks_for_words() {
+    let place = Place::new();
+    let said = |words: &[&str]| place.ok(&[&["describe"][..], words].concat()).out;
+    assert!(said(&["gold"]).contains("materials.metal"), "{}", said(&["gold"]));
+    assert!(said(&["depth", "of", "field"]).contains("thin-lens"));
+    assert!(said(&["fog"]).contains("not rendered"));
+    assert!(said(&["units"]).contains("lumens"));
+    assert!(said(&["errors"]).contains("unknown-directive"));
+    assert!(said(&["materials"]).contains("diffuse-transmission  "), "names are set apart");
+}
+
+#[test]
 fn a_reader_that_goes_away_is_no_mistake() {
     let place = Place::new();
     for args in [&["describe"][..], &["man"], &["completions", "bash"], &["info", "box.toml"]] {
