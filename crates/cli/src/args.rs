@@ -7,9 +7,9 @@ use std::time::Duration;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use nephroid::desc::IntegratorKind;
-use nephroid::{Extent, PhotonKind};
+use nephroid::{Crop, Extent, PhotonKind};
 
-use crate::values::{Previews, Size};
+use crate::values::{CameraSets, Previews, Size};
 use crate::{span, values};
 
 /// Renders global illumination and caustics with photon maps.
@@ -85,6 +85,16 @@ pub struct Changes {
     #[arg(long, value_name = "PIXELS", conflicts_with = "size", value_parser = clap::value_parser!(u32).range(1..=65536))]
     pub width: Option<u32>,
 
+    /// Render a part of the picture alone: columns X0 up to X1 and rows Y0 up to Y1, in pixels from the top left, or
+    /// all in percent, as 25%,0%,75%,50%. The rest stays black; the part has the same bytes as in the whole.
+    #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = values::crop)]
+    pub crop: Option<Crop>,
+
+    /// Where the camera stands, what it looks at and its field of view in degrees, as 0,2,5:0,1,0:40. Parts may be left
+    /// out: 0,2,5 moves it alone, ::25 narrows it. Short for --set camera.position=[0,2,5] and so on.
+    #[arg(long, value_name = "X,Y,Z:X,Y,Z:FOV", allow_hyphen_values = true, value_parser = values::camera)]
+    pub camera: Option<CameraSets>,
+
     /// Passes, each one camera sample a pixel [default: the scene's, or 128].
     #[arg(long, visible_aliases = ["spp", "samples"], value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4_194_304))]
     pub passes: Option<u32>,
@@ -106,10 +116,18 @@ pub struct Changes {
     #[arg(long, value_name = "EV", allow_negative_numbers = true, value_parser = values::exposure)]
     pub exposure: Option<f32>,
 
-    /// Replace any value of the scene file, as photon_map.knn=80 or materials.glass.ior=1.5 (a TOML value); may be
-    /// given several times.
+    /// Replace any value of the scene, as photon_map.knn=80 or materials.glass.ior=1.5 (a TOML value); may be given
+    /// several times. Of scenes of other programs, names are those that `nephroid convert` writes.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub set: Vec<String>,
+}
+
+impl Changes {
+    /// All values that are replaced in the scene, as --set has them.
+    pub fn sets(&self) -> Vec<String> {
+        let camera = self.camera.iter().flat_map(|camera| camera.0.iter());
+        camera.chain(&self.set).cloned().collect()
+    }
 }
 
 /// Arguments of `render`.

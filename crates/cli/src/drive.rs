@@ -73,7 +73,7 @@ pub fn drive(mut session: Session, how: Drive<'_>, interrupt: &Interrupt) -> Out
                 .line(&format!("  = help: nothing is lost: `nephroid merge {file} -o OUT` writes a picture"));
         }
     }
-    say_end(&progress, &session, result.as_ref().ok().copied(), start.elapsed());
+    say_end(&progress, &session, goal, result.as_ref().ok().copied(), start.elapsed());
     if result == Ok(nephroid::Outcome::Stopped) && code == OK {
         code = INTERRUPTED;
     }
@@ -153,7 +153,13 @@ fn say_saved(progress: &Progress, session: &Session, count: u64, size: u64) {
 }
 
 /// How it ended, where that is not plain, and how good the picture is.
-fn say_end(progress: &Progress, session: &Session, outcome: Option<nephroid::Outcome>, elapsed: Duration) {
+fn say_end(
+    progress: &Progress,
+    session: &Session,
+    goal: Option<f32>,
+    outcome: Option<nephroid::Outcome>,
+    elapsed: Duration,
+) {
     let done = session.done();
     let done = session.total().map_or_else(|| passes(done), |total| format!("{done} of {}", passes(total)));
     let resume = || {
@@ -168,7 +174,16 @@ fn say_end(progress: &Progress, session: &Session, outcome: Option<nephroid::Out
         Some(nephroid::Outcome::FineEnough) => {
             progress.line(&format!("the grain is as fine as was asked for after {done}"));
         }
-        Some(nephroid::Outcome::Finished) | None => {}
+        Some(nephroid::Outcome::Finished) => {
+            let missed = |goal: &f32| session.film().grain().is_some_and(|grain| grain > f64::from(*goal));
+            if let Some(goal) = goal.filter(missed) {
+                let wanted = grain::percent(goal.into());
+                progress.line(&format!(
+                    "all passes are done before the grain is as fine as was asked for ({wanted})"
+                ));
+            }
+        }
+        None => {}
     }
     let how = match outcome {
         Some(nephroid::Outcome::Finished) => "finished",

@@ -124,7 +124,7 @@ fn render(args: &RenderArgs, prepared: Prepared<'_>, interrupt: &Interrupt) -> O
         Some(file) => {
             let info = match Format::of(path) {
                 Format::Native => CheckpointInfo::new(desc),
-                _ => CheckpointInfo::of_import(desc, path, &args.changes.set),
+                _ => CheckpointInfo::of_import(desc, path, &args.changes.sets()),
             };
             let mut info = info.map_err(Failure::runtime)?;
             info.timings = described.timings.clone();

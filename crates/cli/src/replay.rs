@@ -105,8 +105,8 @@ pub fn scene_arguments(scene: &Path, args: &Changes) -> String {
     flag("--width", args.width.map(|n| n.to_string()));
     flag("--seed", args.seed.map(|n| n.to_string()));
     flag("--max-depth", args.max_depth.map(|n| n.to_string()));
-    for set in &args.set {
-        flag("--set", Some(set.clone()));
+    for set in args.sets() {
+        flag("--set", Some(set));
     }
     words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
 }

@@ -34,7 +34,7 @@ pub fn describe(scene: &Path, changes: &Changes, messages: Vec<String>) -> Resul
         )));
     }
     let start = Instant::now();
-    let loaded = load(scene, &changes.set);
+    let loaded = load(scene, &changes.sets());
     let loaded = if changes.strict { strict(loaded) } else { loaded };
     let mut timings = Timings::default();
     timings.add(Phase::Load, start.elapsed());
@@ -45,6 +45,15 @@ pub fn describe(scene: &Path, changes: &Changes, messages: Vec<String>) -> Resul
         return Err(Failure::Usage(messages));
     }
     overrides(changes).apply(&mut desc);
+    let [width, height] = desc.film.size;
+    if let Some([x0, y0, x1, y1]) = desc.film.crop
+        && (x1 > width || y1 > height || x0 >= x1 || y0 >= y1)
+    {
+        return Err(Failure::usage(format!(
+            "the crop {x0},{y0},{x1},{y1} is no part of the picture\n  = help: it has {width}x{height} pixels; parts are left,top,\
+             right,bottom"
+        )));
+    }
     Ok(Described { desc, sources: loaded.sources, warnings: loaded.diagnostics, timings })
 }
 
@@ -93,6 +102,7 @@ fn overrides(changes: &Changes) -> Overrides {
     Overrides {
         integrator: changes.integrator.map(Into::into),
         size,
+        crop: changes.crop,
         width,
         passes: changes.passes,
         seed: changes.seed,

@@ -94,6 +94,10 @@ const FOREIGN: &[(&[&str], &str)] = &[
         "--noise 2% ends the render once its grain is so fine",
     ),
     (
+        &["--region", "--cropwindow", "--crop-window", "--border", "--window"],
+        "--crop X0,Y0,X1,Y1 renders a part",
+    ),
+    (
         &["--verbose", "-v", "--debug", "--stats"],
         "--timings says what each part took; `nephroid info` what is in a scene",
     ),

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::time::Duration;
 
-use nephroid::{Extent, Film};
+use nephroid::{Crop, Extent, Film};
 
 use crate::span;
 
@@ -122,6 +122,74 @@ pub fn noise(text: &str) -> Result<f32, String> {
     Err("a noise lies between 0.01% and 100%".to_owned())
 }
 
+/// 10,20,110,80 in pixels, or all in percent.
+///
+/// # Errors
+/// What is wrong, for people.
+pub fn crop(text: &str) -> Result<Crop, String> {
+    let wrong = || {
+        "a crop is left,top,right,bottom in pixels, as 100,50,300,200, or in percent, as 25%,0%,75%,50%"
+            .to_owned()
+    };
+    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
+    let [_, _, _, _] = parts[..] else { return Err(wrong()) };
+    let crop = if parts.iter().all(|part| part.ends_with('%')) {
+        let share = |part: &&str| part.trim_end_matches('%').trim().parse::<f64>().ok().map(|p| p / 100.0);
+        let shares: Option<Vec<f64>> = parts.iter().map(share).collect();
+        let shares: [f64; 4] = shares.and_then(|s| s.try_into().ok()).ok_or_else(wrong)?;
+        if !shares.iter().all(|share| (0.0..=1.0).contains(share)) {
+            return Err("shares of a picture lie between 0% and 100%".to_owned());
+        }
+        Crop::Shares(shares)
+    } else {
+        let pixels: Option<Vec<u32>> = parts.iter().map(|part| part.parse().ok()).collect();
+        Crop::Pixels(pixels.and_then(|p| p.try_into().ok()).ok_or_else(wrong)?)
+    };
+    let is_empty = match crop {
+        Crop::Pixels([x0, y0, x1, y1]) => x0 >= x1 || y0 >= y1,
+        Crop::Shares([x0, y0, x1, y1]) => x0 >= x1 || y0 >= y1,
+    };
+    if is_empty {
+        Err("the crop is empty: right and bottom lie beyond left and top".to_owned())
+    } else {
+        Ok(crop)
+    }
+}
+
+/// Values of the camera that are replaced, as --set has them.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CameraSets(pub Vec<String>);
+
+/// 0,2,5:0,1,0:40: where it stands, what it looks at, its field of view; each may be left out.
+///
+/// # Errors
+/// What is wrong, for people.
+pub fn camera(text: &str) -> Result<CameraSets, String> {
+    let wrong =
+        || "a camera is position:look_at:fov, as 0,2,5:0,1,0:40, of which parts may be left out".to_owned();
+    let number = |part: &str| part.trim().parse::<f64>().ok().filter(|n| n.is_finite()).ok_or_else(wrong);
+    let parts: Vec<&str> = text.split(':').map(str::trim).collect();
+    if parts.len() > 3 || parts.iter().all(|part| part.is_empty()) {
+        return Err(wrong());
+    }
+    let mut sets = Vec::new();
+    for (part, key) in
+        parts.into_iter().zip(["position", "look_at", "fov"]).filter(|(part, _)| !part.is_empty())
+    {
+        if key == "fov" {
+            sets.push(format!("camera.fov={:?}", number(part)?));
+            continue;
+        }
+        let point: Vec<String> =
+            part.split(',').map(|n| number(n).map(|n| format!("{n:?}"))).collect::<Result<_, _>>()?;
+        if point.len() != 3 {
+            return Err(wrong());
+        }
+        sets.push(format!("camera.{key}=[{}]", point.join(", ")));
+    }
+    Ok(CameraSets(sets))
+}
+
 /// How often pictures are rewritten while passes come; `None`: never.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Previews(pub Option<Duration>);
@@ -140,6 +208,29 @@ pub fn previews(text: &str) -> Result<Previews, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn crops() {
+        assert_eq!(crop("1, 2,3,4"), Ok(Crop::Pixels([1, 2, 3, 4])));
+        assert_eq!(crop("25%,0%,75%,50 %"), Ok(Crop::Shares([0.25, 0.0, 0.75, 0.5])));
+        for wrong in
+            ["", "1,2,3", "1,2,3,4,5", "3,2,3,4", "0.1,0.2,0.3,0.4", "1,2,30%,4", "0%,0%,101%,5%", "-1,0,3,4"]
+        {
+            assert!(crop(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn cameras() {
+        let sets = |text: &str| camera(text).map(|c| c.0.join(" "));
+        let whole = "camera.position=[0.0, -2.0, 5.0] camera.look_at=[0.0, 1.0, 0.0] camera.fov=40.0";
+        assert_eq!(sets("0,-2,5:0,1,0:40").as_deref(), Ok(whole));
+        assert_eq!(sets("0,-2,5").as_deref(), Ok("camera.position=[0.0, -2.0, 5.0]"));
+        assert_eq!(sets("::25").as_deref(), Ok("camera.fov=25.0"));
+        for wrong in ["", "::", "1,2", "1,2,3:4", "1,2,x", "1,2,3:4,5,6:7:8", "nan,0,0"] {
+            assert!(camera(wrong).is_err(), "{wrong}");
+        }
+    }
 
     #[test]
     fn noises_and_previews() {

@@ -34,8 +34,8 @@ pub use outsource::{OutsourceError, outsource};
 ///
 /// Files of other programs are refused with what to export; a file that is not there with the name of one that may be meant.
 ///
-/// `overrides` replace values of TOML files, as [`scenefile::load`] takes them, and each `name=value` what Mitsuba's
-/// `<default>` says; with another format they are errors.
+/// `overrides` replace values, as [`scenefile::load`] takes them; of scenes of other programs those of the description
+/// ([`scenefile::replace`]). With Mitsuba's a name without a table is that of a `<default>`.
 /// Never panics; memory is bounded by the size of the files.
 pub fn load(path: &Path, overrides: &[String]) -> Loaded {
     let format = Format::of(path);
@@ -49,24 +49,25 @@ pub fn load(path: &Path, overrides: &[String]) -> Loaded {
             sources,
         };
     }
-    match format {
-        Format::Native => return scenefile::load(path, overrides),
-        Format::Mitsuba => return mitsuba::load(path, overrides),
-        _ if !overrides.is_empty() => {}
-        Format::Pbrt => return pbrt::load(path),
-        Format::Gltf => return gltf::load(path),
-        Format::Obj => return obj::load(path),
-        Format::Ply => return ply::load(path),
-    }
-    let mut sources = Sources::default();
-    let span = |file| Span { file, start: 0, end: 0 };
-    let wrong = |text: &String| {
-        Diagnostic::error("override", "values can be replaced in TOML scenes only")
-            .at(span(sources.add("--set", text.as_str())))
-            .help("`nephroid convert` makes a TOML scene of this one")
+    // Defaults of Mitsuba's scenes have names without a table.
+    let is_default = |text: &&String| format == Format::Mitsuba && !names_a_table(text);
+    let (defaults, overrides): (Vec<String>, Vec<String>) =
+        overrides.iter().cloned().partition(|t| is_default(&t));
+    let loaded = match format {
+        Format::Native => return scenefile::load(path, &overrides),
+        Format::Mitsuba => mitsuba::load(path, &defaults),
+        Format::Pbrt => pbrt::load(path),
+        Format::Gltf => gltf::load(path),
+        Format::Obj => obj::load(path),
+        Format::Ply => ply::load(path),
     };
-    let diagnostics = overrides.iter().map(wrong).collect();
-    Loaded { desc: None, diagnostics, sources }
+    if overrides.is_empty() { loaded } else { scenefile::replace(loaded, path, &overrides) }
+}
+
+/// Whether an override's name begins with a table of our own scenes.
+fn names_a_table(text: &str) -> bool {
+    let name = text.split('=').next().unwrap_or_default();
+    name.split_once('.').is_some_and(|(table, _)| scenefile::spec::section(table.trim()).is_some())
 }
 
 /// Turns every warning into an error, after which there is no description if there was any.

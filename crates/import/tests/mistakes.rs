@@ -225,15 +225,6 @@ fn files_that_go_round() {
         1 error
     "#]]
     .assert_eq(&missing);
-    let set = load(&path, &["film.size=[1,1]".to_owned()]).render();
-    expect![[r#"
-        error[override]: values can be replaced in TOML scenes only
-         --> --set
-          = help: `nephroid convert` makes a TOML scene of this one
-
-        1 error
-    "#]]
-    .assert_eq(&set);
 }
 
 #[test]

@@ -170,7 +170,12 @@ pub(crate) fn trace_layers(
         let mut values = vec![[0.0; 3]; slots.count * pixels.len()];
         let mut samples = Vec::with_capacity(pixels.len());
         for (pixel, values) in pixels.zip(values.chunks_mut(slots.count)) {
-            let path = start(scene, settings, &streams, pass, [pixel % width, pixel / width]);
+            let [x, y] = [pixel % width, pixel / width];
+            if !settings.shows(x, y) {
+                samples.push(PixelSample::default());
+                continue;
+            }
+            let path = start(scene, settings, &streams, pass, [x, y]);
             let sample = PixelSample { weight: path.weight, ..PixelSample::default() };
             let mut layered = Layered { sample, values, slots: &slots, scene };
             tracer.trace(path, &mut layered);

@@ -74,6 +74,9 @@ pub(crate) fn trace_pixels(scene: &Scene, settings: &Settings, pass: u64, tracer
         for first in (0..width).step_by(COLUMNS) {
             for (y, row) in samples.chunks_mut(width).enumerate() {
                 for (x, sample) in row.iter_mut().enumerate().skip(first).take(COLUMNS) {
+                    if !settings.shows(x, band * BAND + y) {
+                        continue;
+                    }
                     let path = start(scene, settings, &streams, pass, [x, band * BAND + y]);
                     sample.weight = path.weight;
                     tracer.trace(path, sample);

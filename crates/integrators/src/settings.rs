@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 use film::Filter;
 use photons::Kernel;
 
@@ -27,6 +29,8 @@ pub struct Settings {
     pub seed: u64,
     /// Scattering events on a path, at most; 1 is direct light alone. `u32::MAX`: no limit.
     pub max_depth: u32,
+    /// The part of the picture that is rendered: columns and rows; `None` for all. It decides no value of a pixel.
+    pub crop: Option<[Range<usize>; 2]>,
     /// Pixel filter.
     pub filter: Filter,
     /// Layers on request.
@@ -37,6 +41,14 @@ pub struct Settings {
     pub sppm: SppmSettings,
     /// Vertex connection and merging.
     pub vcm: VcmSettings,
+}
+
+impl Settings {
+    /// Whether a pixel is to be rendered; what is not stays black.
+    #[inline]
+    pub(crate) fn shows(&self, x: usize, y: usize) -> bool {
+        self.crop.as_ref().is_none_or(|[columns, rows]| columns.contains(&x) && rows.contains(&y))
+    }
 }
 
 /// Layers that a film has on request.

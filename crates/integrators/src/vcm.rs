@@ -113,10 +113,10 @@ impl Integrator for Vcm {
         let [width, height] = scene.resolution().map(|n| n as usize);
         let eye = eye::Eye::new(self.plan(scene, pass), maps, self.settings.seed, pass);
         let mut traced = trace_pixels(scene, &self.settings, pass, &eye);
-        let (splats, filter) = (&maps.light_side.splats, &self.settings.filter);
-        splat::add(splats, filter, [width, height], &mut traced.samples);
+        let splats = &maps.light_side.splats;
+        splat::add(splats, &self.settings, [width, height], &mut traced.samples);
         if let Some(layers) = &mut traced.layers {
-            splat::add_to_layers(splats, filter, [width, height], &traced.samples, layers, scene);
+            splat::add_to_layers(splats, &self.settings, &traced.samples, layers, scene);
         }
         traced.finish(scene)
     }

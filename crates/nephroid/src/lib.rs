@@ -54,7 +54,7 @@ pub use scenefile::{
 };
 pub use session::{
     Checkpoint, CheckpointError, CheckpointErrorKind, CheckpointFile, CheckpointInfo, CompileError, Compiled,
-    Control, Event, Extent, Job, MergeError, Outcome, Output, OutputKind, Overrides, Phase, PictureError,
+    Control, Crop, Event, Extent, Job, MergeError, Outcome, Output, OutputKind, Overrides, Phase, PictureError,
     PictureInfo, Remaining, ReplayError, ReplayKey, Replayed, Resumed, SceneHash, Session, SessionError,
     Timings, Wanted, Warning, check_outputs, compile, film_bytes, gaps, merge, overwritten_inputs, replay, resume,
     said, scene_hash, settings, survey, write_checkpoint,

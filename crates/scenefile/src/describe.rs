@@ -86,7 +86,9 @@ pub(crate) const PAGES: &[(&str, &str, &str)] = &[
          \x20 --set objects.ball.radius=2        by the object's name\n\
          \x20 --set objects.0.radius=2           by its number, from 0\n\
          \x20 --set render.integrator=path       plain words need no quotes\n\
-         \x20 --set camera.position=[0,1,5]\n",
+         \x20 --set camera.position=[0,1,5]\n\
+         It works on scenes of other programs, too: names and numbers are those that `nephroid convert` writes.\n\
+         --camera 0,1,5:0,1,0:40 is short for camera.position, camera.look_at and camera.fov.\n",
     ),
 ];
 

@@ -120,7 +120,7 @@ fn parse_checked(
 }
 
 /// The description, and whether the text has syntax errors, after which names and completeness mean nothing.
-fn parse_text(
+pub(crate) fn parse_text(
     report: &mut Report,
     text: &str,
     file: FileId,

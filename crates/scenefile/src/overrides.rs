@@ -37,6 +37,12 @@ pub(crate) fn apply(root: &mut Table, text: &str, sources: &mut Sources) -> Resu
     Ok(())
 }
 
+/// The table that an override's path begins with.
+pub(crate) fn root(text: &str) -> Option<String> {
+    let (parts, _) = path(text, FileId(0))?;
+    parts.into_iter().next().map(|part| part.name)
+}
+
 /// The parts of the path and where the value starts. Parts may be quoted.
 fn path(text: &str, file: FileId) -> Option<(Vec<Part>, usize)> {
     let mut parts = Vec::new();

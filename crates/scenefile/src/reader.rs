@@ -272,6 +272,22 @@ impl<'a> Reader<'a> {
         })
     }
 
+    pub(crate) fn optional_window(&self, report: &mut Report, name: &str) -> Option<Option<[u32; 4]>> {
+        self.take_optional(report, name, |report, what, key, node| {
+            let items = match &node.value {
+                Value::Array(items) if items.len() == 4 => items,
+                _ => {
+                    convert::wrong_type(report, what, &key.kind.text(), node);
+                    return None;
+                }
+            };
+            let side = |report: &mut Report, i: usize| convert::integer(report, what, 0, 65536, &items[i]);
+            let sides = [0, 1, 2, 3].map(|i| side(report, i).map(|n| n as u32));
+            let [x0, y0, x1, y1] = sides;
+            Some([x0?, y0?, x1?, y1?])
+        })
+    }
+
     pub(crate) fn pair(&self, report: &mut Report, name: &str) -> Option<[f32; 2]> {
         let read = |report: &mut Report, what: &str, key: &Key, node: &Node| {
             convert::pair(report, what, range(key), node)

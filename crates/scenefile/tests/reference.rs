@@ -58,6 +58,8 @@ fn sample(key: &Key, second: bool) -> String {
             format!("\"{}\"", words.iter().find(|word| word.name != default).unwrap().name)
         }
         Kind::Words(words) => format!("[\"{}\"]", words[1].name),
+        Kind::Window if second => "[0, 0, 2, 3]".into(),
+        Kind::Window => "[1, 0, 2, 3]".into(),
         Kind::Size(..) => "[31, 47]".into(),
         Kind::Pair(_) => "[0.5, 0.75]".into(),
         Kind::Point if key.name == "min" && second => "[0.125, 0.125, -2]".into(),

@@ -36,7 +36,7 @@ pub use event::{Control, Event, Warning};
 pub use hash::{SceneHash, scene_hash};
 pub use job::{Job, SessionError, film_bytes};
 pub use output::{Output, OutputKind, PictureError, PictureInfo, check_outputs, overwritten_inputs};
-pub use overrides::Overrides;
+pub use overrides::{Crop, Overrides};
 pub use pace::Remaining;
 pub use phase::{Phase, Timings};
 pub use ranges::{gaps, said};

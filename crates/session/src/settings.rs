@@ -21,6 +21,10 @@ pub fn settings(desc: &SceneDesc) -> Result<Settings, FilmError> {
         },
         seed: desc.render.seed,
         max_depth: desc.render.max_depth.unwrap_or(u32::MAX),
+        crop: desc.film.crop.map(|crop| {
+            let [x0, y0, x1, y1] = crop.map(|n| n as usize);
+            [x0..x1, y0..y1]
+        }),
         filter: Filter::new(filter_kind(desc.film.filter), desc.film.filter_radius)?,
         layers: LayerSettings { techniques: desc.film.layers.techniques, lights: desc.film.layers.lights },
         photon_map: PhotonMapSettings {

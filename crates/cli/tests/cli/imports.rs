@@ -93,6 +93,6 @@ fn doubts_are_said_or_are_errors() {
     let strict = place.run(&["render", "a.pbrt", "--strict", "-o", "b.exr"]);
     assert_eq!((strict.code, place.files()), (Some(2), before));
     assert!(strict.err.contains("error[unsupported]"), "{}", strict.err);
-    let set = place.run(&["info", "a.pbrt", "--set", "render.seed=3"]);
-    assert!(set.code == Some(2) && set.err.contains("nephroid convert"), "{}", set.err);
+    let set = place.ok(&["info", "a.pbrt", "--set", "render.seed=3"]);
+    assert!(set.out.contains("seed 3"), "{}", set.out);
 }

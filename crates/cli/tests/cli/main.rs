@@ -10,6 +10,7 @@ mod long;
 mod manners;
 mod manual;
 mod outputs;
+mod parts;
 mod progress;
 mod replay;
 mod reports;

@@ -6,6 +6,7 @@ use math::Vec2;
 use scene::{LightId, Scene};
 use transport::LightLayer;
 
+use crate::Settings;
 use crate::layers::Layers;
 use crate::sink::{Origin, Sink, Source, Technique};
 
@@ -28,12 +29,13 @@ impl Splat {
 /// Rows that are filled at once. Part of no result: each pixel adds its splats in index order.
 const BAND: usize = 16;
 
-/// Adds the splats to the samples of a film, each to all pixels whose filter reaches it. Samples are multiplied by their
+/// Adds the splats to the samples of a film, each to all pixels that are rendered and whose filter reaches it. Samples are multiplied by their
 /// weight later (±c where the filter is negative somewhere), splats have theirs already.
-pub(super) fn add(splats: &[Splat], filter: &Filter, size: [usize; 2], samples: &mut [PixelSample]) {
+pub(super) fn add(splats: &[Splat], settings: &Settings, size: [usize; 2], samples: &mut [PixelSample]) {
     if splats.is_empty() {
         return;
     }
+    let filter = &settings.filter;
     let reach = filter.radius() + 0.5;
     par::fill_chunks(samples, size[0] * BAND, |band, samples| {
         let rows = band * BAND..band * BAND + samples.len() / size[0];
@@ -41,7 +43,7 @@ pub(super) fn add(splats: &[Splat], filter: &Filter, size: [usize; 2], samples: 
         for splat in splats.iter().filter(|s| (first..=last).contains(&s.film_position.y)) {
             let origin = splat.origin();
             filter.spread(splat.film_position, size, |x, y, weight| {
-                if rows.contains(&y) {
+                if rows.contains(&y) && settings.shows(x, y) {
                     let sample = &mut samples[(y - rows.start) * size[0] + x];
                     sample.add(origin, splat.radiance * (weight / sample.weight));
                 }
@@ -73,20 +75,23 @@ pub(super) fn add_to_pixel(
 /// The same as [`add`] to the layers of their technique and of their lights.
 pub(super) fn add_to_layers(
     splats: &[Splat],
-    filter: &Filter,
-    size: [usize; 2],
+    settings: &Settings,
     samples: &[PixelSample],
     layers: &mut Layers,
     scene: &Scene,
 ) {
     let slots = &layers.slots;
+    let size = scene.resolution().map(|n| n as usize);
     par::fill_chunks(&mut layers.values, samples.len(), |layer, values| {
         for splat in splats {
             let origin = splat.origin();
             if !slots.of(&origin, scene).any(|slot| slot == layer) {
                 continue;
             }
-            filter.spread(splat.film_position, size, |x, y, weight| {
+            settings.filter.spread(splat.film_position, size, |x, y, weight| {
+                if !settings.shows(x, y) {
+                    return;
+                }
                 let pixel = y * size[0] + x;
                 let share = splat.radiance * (weight / samples[pixel].weight);
                 values[pixel].iter_mut().zip(share.to_rgb()).for_each(|(v, s)| *v += s);

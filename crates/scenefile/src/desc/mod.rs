@@ -151,6 +151,9 @@ pub enum View {
 pub struct Film {
     /// Width and height in pixels, each 1..=65536, 2³⁰ pixels at most.
     pub size: [u32; 2],
+    /// The part that is rendered, in pixels: columns from the first up to the third, rows from the second up to the fourth;
+    /// `None` for all.
+    pub crop: Option<[u32; 4]>,
     /// The pixel filter.
     pub filter: FilterKind,
     /// The filter's radius in pixels; `None` is the filter's own default.
@@ -176,6 +179,7 @@ impl Default for Film {
     fn default() -> Self {
         Self {
             size: [512, 512],
+            crop: None,
             filter: FilterKind::BlackmanHarris,
             filter_radius: None,
             exposure: 0.0,

@@ -32,6 +32,7 @@ pub(super) fn render(report: &mut Report, r: &Reader<'_>, desc: &mut SceneDesc) 
 
 pub(super) fn film(report: &mut Report, r: &Reader<'_>, desc: &mut SceneDesc) {
     let size = r.size(report, "size");
+    let crop = r.optional_window(report, "crop");
     let filter = r.word(report, "filter").map(|word| match word {
         "box" => FilterKind::Box,
         "triangle" => FilterKind::Triangle,
@@ -52,10 +53,17 @@ pub(super) fn film(report: &mut Report, r: &Reader<'_>, desc: &mut SceneDesc) {
         let message = format!("a picture of {width} x {height} has more than 2^30 pixels");
         report.push(Diagnostic::error("out-of-range", message).at(entry.node.span));
     }
+    if let (Some([width, height]), Some(Some([x0, y0, x1, y1])), Some(entry)) = (size, crop, r.given("crop"))
+        && !(x0 < x1 && y0 < y1 && x1 <= width && y1 <= height)
+    {
+        let message = format!("`crop` is no part of a picture of {width} x {height}");
+        let help = format!("[x0, y0, x1, y1]: 0 ≤ x0 < x1 ≤ {width}, 0 ≤ y0 < y1 ≤ {height}");
+        report.push(Diagnostic::error("out-of-range", message).at(entry.node.span).help(help));
+    }
     if let (Some(size), Some(filter), Some(filter_radius), Some(exposure), Some(view), Some(layers)) =
         (size, filter, filter_radius, exposure, view, layers)
     {
-        desc.film = Film { size, filter, filter_radius, exposure, view, layers };
+        desc.film = Film { size, crop: crop.flatten(), filter, filter_radius, exposure, view, layers };
     }
 }
 

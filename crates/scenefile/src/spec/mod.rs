@@ -95,6 +95,8 @@ pub enum Kind {
     Words(&'static [Word]),
     /// Two integers, each from the first to the second.
     Size(i128, i128),
+    /// Four integers: a part of the picture.
+    Window,
     /// Two numbers, or one that stands for both.
     Pair(Range),
     /// A point or vector [x, y, z].
@@ -318,6 +320,7 @@ impl Kind {
             Self::Text => "a string".into(),
             Self::Word(list) => words(list),
             Self::Words(list) => format!("a list of {}", words(list)),
+            Self::Window => "[x0, y0, x1, y1], whole numbers".into(),
             Self::Size(min, max) => format!("[width, height], each from {min} to {max}"),
             Self::Pair(range) => with("[u, v] or a number", range),
             Self::Point => "[x, y, z]".into(),

@@ -83,6 +83,13 @@ pub const FILM: Section = Section {
             Pair([512.0, 512.0]),
             "Width and height; 2^30 pixels in all at most.",
         ),
+        key(
+            "crop",
+            Kind::Window,
+            "pixels",
+            Absent("all of it"),
+            "Columns x0 up to x1 and rows y0 up to y1, from the top left, are rendered; all else stays black.",
+        ),
         key("filter", Kind::Word(FILTERS), "", Preset::Word("blackman-harris"), "The pixel filter."),
         key(
             "filter_radius",

@@ -91,6 +91,9 @@ fn film(desc: &SceneDesc) -> Fields {
     let film = &desc.film;
     let mut f = fields(&spec::FILM, None);
     f.pair("size", film.size.map(|x| x.to_string()));
+    if let Some(crop) = film.crop {
+        f.list("crop", &crop, u32::to_string);
+    }
     f.word(
         "filter",
         match film.filter {
