@@ -520,7 +520,7 @@ impl Dice {
             };
             desc.film = Film {
                 size: [1 + self.below(20_000) as u32, 1 + self.below(20_000) as u32],
-                crop: self.coin().then(|| [0, 0, 1, 1]),
+                crop: self.coin().then_some([0, 0, 1, 1]),
                 filter: filters[self.below(4) as usize],
                 filter_radius: self.coin().then(|| self.unit() + 0.25),
                 exposure: self.modest(),
