@@ -26,7 +26,11 @@ pub fn info(path: &Path) -> Outcome {
     let size = std::fs::metadata(path).map_or(0, |m| m.len());
     let mut text = String::new();
     row(&mut text, "checkpoint", &format!("{}, {}, undamaged", path.display(), bytes(size)));
-    row(&mut text, "scene", &format!("{} ({})", info.desc.base.display(), info.hash));
+    row(
+        &mut text,
+        "scene",
+        &format!("{} ({})", info.name.as_ref().unwrap_or(&info.desc.base).display(), info.hash),
+    );
     settings(&mut text, &info.desc);
     let asked = match info.passes.end - info.passes.start {
         Film::MAX_PASSES => "without end".to_owned(),

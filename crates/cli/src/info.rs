@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use nephroid::desc::{FilterKind, IntegratorKind, Render, View};
-use nephroid::{Checkpoint, Light, SceneDesc, Survey, film_bytes, scene_hash};
+use nephroid::desc::{self, FilterKind, IntegratorKind, LightKind, Render, View};
+use nephroid::{Checkpoint, Lanes, Light, SceneDesc, Survey, film_bytes, light_kind, scene_hash, shape_kind};
 
 use crate::args::InfoArgs;
 use crate::checkpoint;
@@ -29,7 +29,7 @@ pub fn run(args: &InfoArgs) -> Outcome {
     row(&mut text, "scene", &format!("{} ({hash})", args.scene.scene.display()));
     settings(&mut text, &described.desc);
     contents(&mut text, &survey);
-    lights(&mut text, &survey.lights);
+    lights(&mut text, &described.desc, &survey.lights);
     say::print(&text)?;
     Ok(OK)
 }
@@ -94,45 +94,92 @@ fn contents(text: &mut String, survey: &Survey) {
 }
 
 /// Lights by power, the strongest first.
-fn lights(text: &mut String, lights: &[(String, Light)]) {
+fn lights(text: &mut String, desc: &SceneDesc, lights: &[(String, Light)]) {
     let watts = |light: &Light| light.power().to_rgb().map(f64::from).iter().sum::<f64>() / 3.0;
     let mut all: Vec<(usize, f64)> = lights.iter().map(|(_, light)| watts(light)).enumerate().collect();
     all.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.cmp(&b.0)));
     let total: f64 = all.iter().map(|(_, w)| w).sum();
-    row(text, "lights", &format!("{}, {} W", all.len(), watts_text(total)));
+    let lumens: f64 = lights.iter().map(|(_, light)| seen(light.power())).sum();
+    row(text, "lights", &format!("{}, {} W, {} lm", all.len(), figures(total), figures(lumens)));
     for (id, power) in all.iter().take(LISTED) {
         let share = if total > 0.0 { 100.0 * power / total } else { 0.0 };
         let (name, light) = &lights[*id];
-        let kind = kind(light);
-        let _ = writeln!(text, "{:>10} W {share:>5.1} %  {kind} {name}", watts_text(*power));
+        let candela = light.greatest_intensity().map(|i| format!(", {} cd", figures(seen(i))));
+        let _ = writeln!(
+            text,
+            "{:>10} W {:>9} lm {share:>5.1} %  {}{}",
+            figures(*power),
+            figures(seen(light.power())),
+            written(desc, name, light),
+            candela.unwrap_or_default()
+        );
     }
     if all.len() > LISTED {
         let rest: f64 = all[LISTED..].iter().map(|(_, w)| w).sum();
-        let _ = writeln!(text, "{:>10} W in {} more", watts_text(rest), all.len() - LISTED);
+        let _ = writeln!(text, "{:>10} W in {} more", figures(rest), all.len() - LISTED);
     }
 }
 
-fn kind(light: &Light) -> &'static str {
+/// What the eye sees of watts: lumens, of W/sr candela.
+fn seen(watts: Lanes) -> f64 {
+    let [r, g, b] = watts.to_rgb().map(f64::from);
+    f64::from(desc::WHITE_EFFICACY) * (0.2126 * r + 0.7152 * g + 0.0722 * b)
+}
+
+/// Kind and name of a light, as the scene has them.
+fn written(desc: &SceneDesc, name: &str, light: &Light) -> String {
+    let is_named = |own: &Option<String>| own.as_deref() == Some(name);
+    // Sun and sky are two lights of one table.
+    let is_part = |own: &Option<String>| {
+        own.as_deref()
+            .is_some_and(|own| [" (sun)", " (sky)"].iter().any(|part| name.strip_suffix(part) == Some(own)))
+    };
+    if let Some(light) = desc.lights.iter().find(|light| is_named(&light.name) || is_part(&light.name)) {
+        let file = match &light.kind {
+            LightKind::Profile { file, .. } => Some(file.display().to_string()),
+            LightKind::Sky { source, .. }
+            | LightKind::Goniometric { source, .. }
+            | LightKind::Projector { source, .. } => Some(source.written().into_owned()),
+            LightKind::Point { .. }
+            | LightKind::Spot { .. }
+            | LightKind::Directional { .. }
+            | LightKind::Environment { .. }
+            | LightKind::SunSky(_) => None,
+        };
+        let file = file.map_or(String::new(), |file| format!(" ({file})"));
+        return format!("{}{file} {name}", light_kind(light));
+    }
+    let grouped = desc.groups.values().flat_map(|group| &group.objects);
+    let shining: Vec<_> = desc.objects.iter().chain(grouped).filter(|o| o.emission.is_some()).collect();
+    if let Some(object) = shining.iter().find(|object| is_named(&object.name)) {
+        return format!("{} {name}", shape_kind(&object.shape));
+    }
     match light {
-        Light::Point(_) => "point",
-        Light::Spot(_) => "spot",
-        Light::Shaped(_) => "shaped",
-        Light::Directional(_) => "directional",
-        Light::Environment(_) | Light::Sky(_) => "environment",
-        Light::Sun(_) => "sun",
-        Light::Sphere(_) => "sphere",
-        Light::Disk(_) => "disk",
-        Light::Triangles(_) => "triangles",
+        Light::Sphere(_) | Light::Disk(_) | Light::Triangles(_) => {
+            // Those without a name are known by their number alone.
+            let mut kinds = shining.iter().filter(|o| o.name.is_none()).map(|o| shape_kind(&o.shape));
+            let first = kinds.next().unwrap_or("surface");
+            let kind = if kinds.all(|kind| kind == first) { first } else { "surface" };
+            format!("{kind} {name}")
+        }
+        // Their names say what they are.
+        Light::Point(_)
+        | Light::Spot(_)
+        | Light::Shaped(_)
+        | Light::Directional(_)
+        | Light::Environment(_)
+        | Light::Sky(_)
+        | Light::Sun(_) => name.to_owned(),
     }
 }
 
 /// Four figures.
-fn watts_text(watts: f64) -> String {
-    if watts != 0.0 && !(1e-3..1e6).contains(&watts.abs()) {
-        return format!("{watts:.3e}");
+fn figures(number: f64) -> String {
+    if number != 0.0 && !(1e-3..1e6).contains(&number.abs()) {
+        return format!("{number:.3e}");
     }
-    let whole = watts.abs().max(1.0).log10().floor() as usize + 1;
-    format!("{watts:.*}", 4usize.saturating_sub(whole))
+    let whole = number.abs().max(1.0).log10().floor() as usize + 1;
+    format!("{number:.*}", 4usize.saturating_sub(whole))
 }
 
 /// Bytes as people read them, in powers of 1024.
@@ -156,7 +203,7 @@ mod tests {
     fn sizes_and_powers() {
         let sizes = [0, 999, 1000, 1536, 110_000, 5 << 20, 3 << 40].map(bytes);
         assert_eq!(sizes, ["0 B", "999 B", "1.0 KiB", "1.5 KiB", "107 KiB", "5.0 MiB", "3.0 TiB"]);
-        let powers = [0.0, 0.5, 12.345, 1234.5, 99999.0, 1e-5, 3e9].map(watts_text);
+        let powers = [0.0, 0.5, 12.345, 1234.5, 99999.0, 1e-5, 3e9].map(figures);
         assert_eq!(powers, ["0.000", "0.500", "12.35", "1234", "99999", "1.000e-5", "3.000e9"]);
     }
 }

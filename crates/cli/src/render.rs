@@ -127,6 +127,7 @@ fn render(args: &RenderArgs, prepared: Prepared<'_>, interrupt: &Interrupt) -> O
                 _ => CheckpointInfo::of_import(desc, path, &args.changes.sets()),
             };
             let mut info = info.map_err(Failure::runtime)?;
+            info.name = std::path::absolute(path).ok();
             info.timings = described.timings.clone();
             info.outputs = absolute(outputs);
             let hash = info.hash;

@@ -49,13 +49,13 @@ pub use integrators::{
 pub use math::Vec3;
 pub use scene::{Light, LightId, Scene, Survey};
 pub use scenefile::{
-    Diagnostic, Loaded, SceneDesc, Severity, Sources, UnknownTopic, desc, describe, parse, render_all,
-    to_toml, topics,
+    Diagnostic, Loaded, SceneDesc, Severity, Sources, UnknownTopic, desc, describe, light_kind, parse,
+    render_all, shape_kind, to_toml, topics,
 };
 pub use session::{
     Checkpoint, CheckpointError, CheckpointErrorKind, CheckpointFile, CheckpointInfo, CompileError, Compiled,
-    Control, Crop, Event, Extent, Job, MergeError, Outcome, Output, OutputKind, Overrides, Phase, PictureError,
-    PictureInfo, Remaining, ReplayError, ReplayKey, Replayed, Resumed, SceneHash, Session, SessionError,
-    Timings, Wanted, Warning, check_outputs, compile, film_bytes, gaps, merge, overwritten_inputs, replay, resume,
-    said, scene_hash, settings, survey, write_checkpoint,
+    Control, Crop, Event, Extent, Job, MergeError, Outcome, Output, OutputKind, Overrides, Phase,
+    PictureError, PictureInfo, Remaining, ReplayError, ReplayKey, Replayed, Resumed, SceneHash, Session,
+    SessionError, Timings, Wanted, Warning, check_outputs, compile, film_bytes, gaps, merge,
+    overwritten_inputs, replay, resume, said, scene_hash, settings, survey, write_checkpoint,
 };

@@ -30,4 +30,4 @@ pub use load::{Loaded, MOST_BYTES, load, parse, reread};
 pub use replace::replace;
 pub use snippet::{Position, position, render_all};
 pub use source::{FileId, Source, Sourced, Sources, Span};
-pub use write::to_toml;
+pub use write::{light_kind, shape_kind, to_toml};

@@ -4,7 +4,7 @@ use std::process::Stdio;
 
 use expect_test::expect;
 
-use crate::harness::{Place, masked};
+use crate::harness::{BOX, Place, masked};
 
 #[test]
 fn info_says_what_is_in_a_scene() {
@@ -20,13 +20,35 @@ fn info_says_what_is_in_a_scene() {
         materials   4, 0 textures
         bounds     
         memory      meshes _ B, BVH about _ B, textures _ B, film _ KiB
-        lights      2, 40.00 W
-             30.00 W  _ %  disk lamp
-             10.00 W  _ %  point bulb
+        lights      2, 40.00 W, 7160 lm
+             30.00 W      5370 lm  _ %  disk lamp
+             10.00 W      1790 lm  _ %  point bulb, 142.4 cd
     "#]]
     .assert_eq(&masked(&said));
     assert_eq!(ran.err, "");
     assert_eq!(place.files(), ["box.toml"]);
+}
+
+#[test]
+fn info_names_lamps_as_the_scene_does() {
+    let place = Place::new();
+    let quad = "\n[[objects]]\nname = \"softbox\"\nshape = \"quad\"\norigin = [0, 3, 0]\nedge_u = [1, 0, 0]\nedge_v = [0, 0, 1]\n";
+    let sun = "\n[[lights]]\nname = \"day\"\nkind = \"sun-sky\"\nsun_direction = [0, 1, 0.3]\n";
+    let spot = "\n[[lights]]\nkind = \"spot\"\nposition = [0, 3, 0]\ntarget = [0, 0, 0]\ncandela = 500\n";
+    place.write("lamps.toml", &format!("{BOX}{quad}lumens = 800\n{sun}{spot}"));
+    let out = place.ok(&["info", "lamps.toml"]).out;
+    for part in [
+        "800.0 lm",
+        "quad softbox",
+        "disk lamp",
+        "point bulb, 142.4 cd",
+        "sun-sky day (sun)",
+        "spot light, 500.0 cd",
+    ] {
+        assert!(out.contains(part), "{part}: {out}");
+    }
+    place.ok(&["box.toml", "-q", "--spp", "1", "--checkpoint", "a.neph"]);
+    assert!(place.ok(&["info", "a.neph"]).out.contains("box.toml ("), "the file, not its folder");
 }
 
 #[test]

@@ -286,6 +286,22 @@ impl Light {
         }
     }
 
+    /// The greatest radiant intensity of a light at a point, W/sr; none of others.
+    pub fn greatest_intensity(&self) -> Option<Lanes> {
+        match self {
+            Self::Point(l) => Some(l.intensity()),
+            Self::Spot(l) => Some(l.power() * (1.0 / l.solid_angle() as f32)),
+            Self::Shaped(l) => Some(l.power() * (1.0 / l.solid_angle())),
+            Self::Directional(_)
+            | Self::Environment(_)
+            | Self::Sky(_)
+            | Self::Sun(_)
+            | Self::Sphere(_)
+            | Self::Disk(_)
+            | Self::Triangles(_) => None,
+        }
+    }
+
     /// Emitted flux; of lights at infinity the flux that enters the scene's bounding sphere (0 before
     /// [`Self::preprocess`]).
     pub fn power(&self) -> Lanes {

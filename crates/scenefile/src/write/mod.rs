@@ -306,6 +306,20 @@ fn power(f: &mut Fields, watts: f32, color: [f32; 3]) {
     }
 }
 
+/// The word for a shape in scene files: "quad".
+pub fn shape_kind(shape: &Shape) -> &'static str {
+    match shape {
+        // Not written out: they may be many.
+        Shape::Triangles { .. } => "triangles",
+        shape => shape_fields(shape).kind.unwrap_or_default(),
+    }
+}
+
+/// The word for a light in scene files: "point".
+pub fn light_kind(light: &Light) -> &'static str {
+    light_fields(light).kind.unwrap_or_default()
+}
+
 fn shape_fields(shape: &Shape) -> Fields {
     let new = |kind| fields(&spec::OBJECTS, Some(kind));
     let round = |kind, segments: u32| {

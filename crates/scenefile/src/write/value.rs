@@ -58,7 +58,7 @@ fn texture(name: &str) -> String {
 /// The lines of one table; what equals the default of its specification is left out.
 pub(super) struct Fields {
     section: &'static Section,
-    kind: Option<&'static str>,
+    pub(super) kind: Option<&'static str>,
     pub(super) lines: Vec<(&'static str, String)>,
 }
 

@@ -32,6 +32,8 @@ pub struct CheckpointInfo {
     pub desc: SceneDesc,
     /// The file of another program that the scene is read from again; `None`: the scene is in the checkpoint.
     pub source: Option<SceneSource>,
+    /// The scene file, for people.
+    pub name: Option<PathBuf>,
     /// What the scene is known by.
     pub hash: SceneHash,
     /// Each file that the scene reads, as it names it, and the hash of what is in it.
@@ -83,6 +85,7 @@ impl CheckpointInfo {
         let info = Self {
             passes: 0..desc.render.passes.into(),
             desc: if source.is_some() { settings_of(desc) } else { desc },
+            name: source.as_ref().map(|source| source.file.clone()),
             source,
             hash,
             files,
@@ -150,6 +153,9 @@ impl CheckpointInfo {
         let mut table = Table::new();
         table.insert("program".into(), PROGRAM.into());
         table.insert("base".into(), path(&self.desc.base));
+        if let Some(name) = &self.name {
+            table.insert("name".into(), path(name));
+        }
         if let Some(source) = &self.source {
             table.insert("source".into(), path(&source.file));
             table.insert("set".into(), source.overrides.clone().into());
@@ -215,6 +221,7 @@ impl CheckpointInfo {
         Ok(Self {
             desc,
             source,
+            name: table.get("name").and_then(Value::as_str).map(PathBuf::from),
             hash: read_hash(string("hash")?).ok_or_else(|| wrong("hash"))?,
             files: list("files")?.iter().map(file).collect::<Option<_>>().ok_or_else(|| wrong("files"))?,
             passes,
