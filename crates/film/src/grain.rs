@@ -19,8 +19,8 @@ impl Film {
     ///
     /// It is an estimate: passes count as independent, though their samples are spread evenly, which makes the error less; and
     /// rare paths that no pass has found yet are not in it, which makes it more. Against long references, with the same
-    /// mean over pixels, the error was 0.8 to 1.3 times as large in a box, a pool and a glass of whisky, and 1.4 to 1.9 times where a
-    /// bright spot lights the rest of the room.
+    /// mean over pixels, the error was 0.7 to 1.3 times as large in four scenes, and 1.4 to 2.4 times in two where a small bright
+    /// spot lights the rest of a room.
     ///
     /// Cost: about 20 ms, at most, whatever the size.
     pub fn grain(&self) -> Option<f64> {
