@@ -9,13 +9,14 @@ use photons::{Kernel, PhotonMap};
 use sampling::Domain;
 use scene::Scene;
 use transport::{
-    CausticJob, EyeChain, LightLayer, PathClass, PathEnd, Vertex, Walk, direct_against, direct_in_chain,
+    CausticJob, Direct, EyeChain, LightLayer, PathClass, PathEnd, Vertex, Walk, direct, direct_in_chain,
     emission_in_chain, escaped_in_chain, is_hidden, merge_within,
 };
 
 use crate::caustics::{Caustics, replay_caustic_job, trace_caustic_job};
 use crate::maps::StoredMap;
-use crate::path::{add_direct, add_emission, even, survival};
+use crate::numbers::VertexNumbers;
+use crate::path::{add_direct, add_emission, survival};
 use crate::pixels::{CameraPath, Tracer, render_pixels};
 use crate::plan::Plan;
 use crate::radius::PassRadius;
@@ -156,15 +157,12 @@ impl Tracer for Eye<'_> {
                 return sink.ended(PathEnd::Depth);
             }
             let is_d = vertex.bsdf.has_diffuse();
-            let depth = walk.depth;
-            let (u_light, u) = (sampler.next_1d(), even(&strata, &mut sampler, depth, 0));
-            let direct = if !is_d && chain.would_compete() {
-                direct_in_chain(scene, &vertex, &chain, u_light, u)
+            let mut numbers = VertexNumbers::new(&strata, &mut sampler, walk.depth);
+            let mut found = |light: &Direct| add_direct(sink, &walk, class.scattered(!is_d), light);
+            if !is_d && chain.would_compete() {
+                direct_in_chain(scene, &vertex, &chain, &mut numbers, &mut found);
             } else {
-                direct_against(scene, &vertex, Lobes::ALL, u_light, u)
-            };
-            if let Some(direct) = direct {
-                add_direct(sink, &walk, class.scattered(!is_d), &direct);
+                direct(scene, &vertex, &mut numbers, &mut found);
             }
             if let (true, Some(photons)) = (is_d, &self.photons) {
                 if radius == 0.0 {
@@ -172,7 +170,7 @@ impl Tracer for Eye<'_> {
                 }
                 photons.merge(&walk, &vertex, class, radius, self.max_depth, sink);
             }
-            let (u_lobe, u) = (sampler.next_1d(), even(&strata, &mut sampler, depth, 1));
+            let (u_lobe, u) = numbers.scatter();
             let Some(scattered) = walk.scatter_with(&vertex, Lobes::ALL, u_lobe, u) else {
                 return sink.ended(PathEnd::Absorbed);
             };

@@ -13,7 +13,7 @@ use photons::{PhotonMap, Scratch};
 use sampling::Sampler;
 use scene::Scene;
 use transport::{
-    LightLayer, Lookup, PathClass, PathEnd, Vertex, Walk, direct, direct_against, emission_at,
+    LightLayer, LightNumbers, Lookup, PathClass, PathEnd, Vertex, Walk, direct, direct_against, emission_at,
     emission_escaped, merge, merge_each, nearest_irradiance,
 };
 
@@ -51,6 +51,25 @@ const GATHER_PER_SHADOW: u32 = 4;
 fn shifted_hammersley(i: u32, n: u32, shift: [f32; 2]) -> [f32; 2] {
     let radical_inverse = i.reverse_bits() as f32 * (1.0 / 4_294_967_296.0);
     [(i as f32 / n as f32 + shift[0]).fract(), (radical_inverse + shift[1]).fract()]
+}
+
+/// The i-th of n sets of numbers for light sampling at one vertex.
+struct Spread {
+    i: u32,
+    n: u32,
+    u_choice: f32,
+    shift: [f32; 2],
+}
+
+impl LightNumbers for Spread {
+    fn choice(&mut self) -> f32 {
+        // Each light gets its share of the rays.
+        ((self.i as f32 + self.u_choice) / self.n as f32).min(ONE_MINUS_EPSILON)
+    }
+
+    fn point(&mut self, _nth: u32) -> [f32; 2] {
+        shifted_hammersley(self.i, self.n, self.shift)
+    }
 }
 
 /// Light gathered at a D surface, times the throughput there, and who watches.
@@ -129,12 +148,12 @@ impl Eye<'_> {
                     return sink.ended(PathEnd::Complete);
                 }
                 lobes = Lobes::DELTA;
-            } else if !vertex.bsdf.is_delta_only()
-                && let Some(direct) = direct(self.scene, &vertex, sampler)
-            {
-                let (layer, technique) = (LightLayer::Direct, Technique::Direct);
-                let origin = Origin { layer, technique, source: Source::Light(direct.light) };
-                sink.add(origin, walk.throughput * direct.radiance);
+            } else {
+                direct(self.scene, &vertex, sampler, |direct| {
+                    let (layer, technique) = (LightLayer::Direct, Technique::Direct);
+                    let origin = Origin { layer, technique, source: Source::Light(direct.light) };
+                    sink.add(origin, walk.throughput * direct.radiance);
+                });
             }
             // Where a lobe of finite width is left as well, one of them all is drawn.
             let delta = if lobes == Lobes::DELTA || vertex.bsdf.is_delta_only() {
@@ -194,18 +213,15 @@ impl Eye<'_> {
 
     /// Light straight from the lights by light sampling: a shadow ray for every few gather rays.
     fn direct<T: Sum>(&self, vertex: &Vertex, sampler: &mut Sampler) -> T {
-        let n = (self.settings.final_gather / GATHER_PER_SHADOW).max(1);
+        let draws = self.scene.direct_picker().draws().max(1);
+        let n = (self.settings.final_gather / (GATHER_PER_SHADOW * draws)).max(1);
         let shift = sampler.next_2d();
         let mut sum = T::default();
         for i in 0..n {
-            // Each light gets its share of the rays.
-            let u_light = (i as f32 + sampler.next_1d()) / n as f32;
-            let u_light = u_light.min(ONE_MINUS_EPSILON);
-            if let Some(direct) =
-                direct_against(self.scene, vertex, Lobes::NON_DELTA, u_light, shifted_hammersley(i, n, shift))
-            {
+            let mut numbers = Spread { i, n, u_choice: sampler.next_1d(), shift };
+            direct_against(self.scene, vertex, Lobes::NON_DELTA, &mut numbers, |direct| {
                 sum.add(Source::Light(direct.light), direct.radiance);
-            }
+            });
         }
         sum.map(|light| light / n as f32)
     }
@@ -311,10 +327,9 @@ impl Eye<'_> {
         let near = from.is_some_and(|x| (x.hit.p - y.hit.p).length() < NEAR * global.typical_radius);
         if near && level == 0 {
             let mut second = Gathered::new(&mut *out.sink);
-            let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
-            if let Some(direct) = direct_against(self.scene, y, Lobes::NON_DELTA, u_light, u) {
+            direct_against(self.scene, y, Lobes::NON_DELTA, sampler, |direct| {
                 second.direct.add(Source::Light(direct.light), ray.throughput * direct.radiance);
-            }
+            });
             if let Some(caustic) = &self.maps.caustic {
                 let lookup = self.caustic_lookup(caustic, y);
                 add_merged(&mut second.indirect, &caustic.map, y, &lookup, ray.throughput, scratch);

@@ -7,6 +7,7 @@ mod eye;
 mod irradiance;
 mod layers;
 mod maps;
+mod numbers;
 mod path;
 mod photon_map;
 mod photon_pass;

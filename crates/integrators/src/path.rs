@@ -3,10 +3,10 @@
 
 use bsdf::Lobes;
 use film::{FilmError, PassFilm};
-use sampling::{Sampler, Strata};
 use scene::Scene;
-use transport::{Direct, Emission, PathClass, PathEnd, Walk, direct_against, emission_at, emission_escaped};
+use transport::{Direct, Emission, PathClass, PathEnd, Walk, direct, emission_at, emission_escaped};
 
+use crate::numbers::VertexNumbers;
 use crate::pixels::{CameraPath, Tracer, render_pixels};
 use crate::replay::record_pixel;
 use crate::sink::{Origin, Sink, Source, Technique};
@@ -14,8 +14,6 @@ use crate::{Integrator, Maps, PathRecord, PhotonKind, Settings, TracedPhotons};
 
 /// Throughput below which Russian roulette begins: killing earlier adds more noise than it saves time.
 const FAINT: f32 = 1.0 / 3.0;
-/// Vertices whose numbers fill their squares evenly over the passes.
-const EVEN_DEPTH: u32 = 2;
 
 /// Chance to survive an event.
 #[inline]
@@ -52,12 +50,6 @@ pub(crate) fn add_direct(sink: &mut impl Sink, walk: &Walk<'_>, class: PathClass
     sink.add(origin, walk.throughput * direct.radiance);
 }
 
-/// Numbers that fill their square evenly over the passes at the first vertices of an eye path, `pair` 0 or 1 of those at a vertex.
-#[inline]
-pub(crate) fn even(strata: &Strata, sampler: &mut Sampler, depth: u32, pair: u32) -> [f32; 2] {
-    if depth < EVEN_DEPTH { strata.point(2 * depth + pair) } else { sampler.next_2d() }
-}
-
 impl Tracer for Path {
     #[inline]
     fn trace<S: Sink>(&self, CameraPath { mut walk, mut sampler, strata, .. }: CameraPath<'_>, sink: &mut S) {
@@ -81,12 +73,11 @@ impl Tracer for Path {
                 return sink.ended(PathEnd::Depth);
             }
             let is_s = !vertex.bsdf.has_diffuse();
-            let depth = walk.depth;
-            let (u_light, u) = (sampler.next_1d(), even(&strata, &mut sampler, depth, 0));
-            if let Some(direct) = direct_against(scene, &vertex, Lobes::ALL, u_light, u) {
-                add_direct(sink, &walk, class.scattered(is_s), &direct);
-            }
-            let (u_lobe, u) = (sampler.next_1d(), even(&strata, &mut sampler, depth, 1));
+            let mut numbers = VertexNumbers::new(&strata, &mut sampler, walk.depth);
+            direct(scene, &vertex, &mut numbers, |direct| {
+                add_direct(sink, &walk, class.scattered(is_s), direct);
+            });
+            let (u_lobe, u) = numbers.scatter();
             let Some(scattered) = walk.scatter_with(&vertex, Lobes::ALL, u_lobe, u) else {
                 return sink.ended(PathEnd::Absorbed);
             };

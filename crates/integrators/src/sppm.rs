@@ -13,7 +13,6 @@ use color::Lanes;
 use film::{FilmError, PassFilm};
 use math::Vec2;
 use photons::{Kernel, PhotonFlags, PhotonMap};
-use sampling::Sampler;
 use scene::Scene;
 use transport::{
     LightLayer, PathClass, PathEnd, PhotonJob, PhotonPaths, Vertex, Walk, direct, direct_against,
@@ -21,6 +20,7 @@ use transport::{
 };
 
 use crate::maps::StoredMap;
+use crate::numbers::VertexNumbers;
 use crate::path::{add_direct, add_emission};
 use crate::photon_pass::{replay_job, trace_job};
 use crate::pixels::{CameraPath, Tracer, render_pixels};
@@ -144,7 +144,7 @@ struct Eye<'a> {
 
 impl Tracer for Eye<'_> {
     #[inline]
-    fn trace<S: Sink>(&self, CameraPath { mut walk, mut sampler, .. }: CameraPath<'_>, sink: &mut S) {
+    fn trace<S: Sink>(&self, CameraPath { mut walk, mut sampler, strata, .. }: CameraPath<'_>, sink: &mut S) {
         loop {
             let Some(vertex) = walk.next_vertex() else {
                 escape(&walk, sink);
@@ -163,15 +163,19 @@ impl Tracer for Eye<'_> {
             let mut lobes = Lobes::ALL;
             if vertex.bsdf.has_diffuse() {
                 if self.direct == DirectLight::Sampling {
-                    self.straight(&walk, &vertex, &mut sampler, sink);
+                    let mut numbers = VertexNumbers::new(&strata, &mut sampler, walk.depth);
+                    self.straight(&walk, &vertex, &mut numbers, sink);
                 }
                 self.merge(&walk, &vertex, sink);
                 if !vertex.bsdf.lobes().contains(Lobes::SPECULAR) {
                     return sink.ended(PathEnd::Complete);
                 }
                 lobes = Lobes::DELTA;
-            } else if let Some(direct) = direct(walk.scene(), &vertex, &mut sampler) {
-                add_direct(sink, &walk, PathClass::default(), &direct);
+            } else {
+                let mut numbers = VertexNumbers::new(&strata, &mut sampler, walk.depth);
+                direct(walk.scene(), &vertex, &mut numbers, |direct| {
+                    add_direct(sink, &walk, PathClass::default(), direct);
+                });
             }
             if walk.scatter_lobes(&vertex, lobes, &mut sampler).is_none() {
                 return sink.ended(PathEnd::Absorbed);
@@ -191,15 +195,21 @@ fn escape(walk: &Walk<'_>, sink: &mut impl Sink) {
 }
 
 impl Eye<'_> {
-    /// Light that comes straight from a light to a D surface: one sample of the lights and one of the BSDF.
+    /// Light that comes straight from a light to a D surface: samples of the lights and one of the BSDF.
     #[inline]
-    fn straight(&self, walk: &Walk<'_>, vertex: &Vertex, sampler: &mut Sampler, sink: &mut impl Sink) {
-        let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
-        if let Some(direct) = direct_against(walk.scene(), vertex, self.rays, u_light, u) {
-            add_direct(sink, walk, PathClass::default(), &direct);
-        }
+    fn straight(
+        &self,
+        walk: &Walk<'_>,
+        vertex: &Vertex,
+        numbers: &mut VertexNumbers<'_>,
+        sink: &mut impl Sink,
+    ) {
+        direct_against(walk.scene(), vertex, self.rays, numbers, |direct| {
+            add_direct(sink, walk, PathClass::default(), direct);
+        });
         let mut ray = *walk;
-        if ray.scatter_lobes(vertex, self.rays, sampler).is_none() {
+        let (u_lobe, u) = numbers.scatter();
+        if ray.scatter_with(vertex, self.rays, u_lobe, u).is_none() {
             return;
         }
         match ray.next_vertex() {

@@ -190,7 +190,7 @@ impl LightChain {
             return 0.0;
         }
         let light = self.start.light;
-        let pmf = f64::from(scene.direct_picker().pmf(light.0 as usize, &z.receiver()));
+        let pmf = f64::from(scene.direct_picker().expected(light.0 as usize, &z.receiver()));
         if self.is_delta {
             return if self.is_infinite { pmf } else { pmf * squared(z.hit.t) };
         }

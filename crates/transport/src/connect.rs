@@ -1,15 +1,14 @@
 use bsdf::{BsdfKind, TransportMode};
 use color::Lanes;
 use math::{FRAC_1_PI, Vec3};
-use sampling::Sampler;
 use scene::light::LightHit;
 use scene::{LightId, Scene};
 
-use crate::direct::{direct_weighted, light_hit};
+use crate::direct::{Sampled, direct_weighted, light_hit};
 use crate::mis::{End, connection_weight, direct_weight, emission_weight};
 use crate::project::reflected;
 use crate::subpath::{EyeEnd, PathVertex, density, geometric_cos, merging, survival};
-use crate::{Direct, Emission, LightDensities, LightVertex, SubpathMis, Vertex};
+use crate::{Direct, Emission, LightDensities, LightNumbers, LightVertex, SubpathMis, Vertex};
 
 /// Joins a vertex of an eye path and one of a light path: weighted radiance toward `eye.vertex.wo`, not multiplied by the
 /// throughput of the eye path. `None`: none arrives.
@@ -61,12 +60,17 @@ fn facing(vertex: &Vertex, w: Vec3) -> Vec3 {
 
 /// Light sampling, weighted against all other techniques.
 #[inline]
-pub fn connect_light(scene: &Scene, eye: &PathVertex, eta: f64, sampler: &mut Sampler) -> Option<Direct> {
-    let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
+pub fn connect_light(
+    scene: &Scene,
+    eye: &PathVertex,
+    eta: f64,
+    numbers: &mut impl LightNumbers,
+    found: impl FnMut(&Direct),
+) {
     let vertex = &eye.vertex;
-    direct_weighted(scene, vertex, u_light, u, |sampled| {
+    let weight = |sampled: &Sampled| {
         let wi = sampled.li.wi;
-        let found = LightDensities::of_direct(scene, sampled.light, sampled.pmf, &sampled.li);
+        let found = LightDensities::of_direct(scene, sampled.light, sampled.expected, &sampled.li);
         let forward = density(vertex, vertex.wo, wi, TransportMode::Radiance);
         let end = End {
             mis: eye.mis,
@@ -75,7 +79,8 @@ pub fn connect_light(scene: &Scene, eye: &PathVertex, eta: f64, sampler: &mut Sa
             reached: found.emitted / found.direct * geometric_cos(vertex, wi),
         };
         direct_weight(eta, forward * found.cos / found.direct, &end)
-    })
+    };
+    direct_weighted(scene, vertex, numbers, weight, found);
 }
 
 /// The light that the surface at `vertex` is, seen from the eye path's last vertex.

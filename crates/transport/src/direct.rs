@@ -2,7 +2,7 @@ use bsdf::{Lobes, TransportMode};
 use color::Lanes;
 use math::Vec3;
 use sampling::Sampler;
-use scene::light::{LiSample, LightHit};
+use scene::light::{Drawn, LiSample, LightHit};
 use scene::{LightId, Scene};
 
 use crate::{EyeChain, Scattered, Vertex, Walk};
@@ -27,85 +27,124 @@ pub struct Direct {
     pub radiance: Lanes,
 }
 
-/// Next-event estimation: light reflected toward `vertex.wo` that arrives straight from one sampled light, with the
-/// weight against finding the light by BSDF sampling. Not multiplied by any throughput. `None`: there is none.
-#[inline]
-pub fn direct(scene: &Scene, vertex: &Vertex, sampler: &mut Sampler) -> Option<Direct> {
-    let u_light = sampler.next_1d();
-    let u = sampler.next_2d();
-    direct_against(scene, vertex, Lobes::ALL, u_light, u)
+/// Numbers in [0, 1) for light sampling at one vertex.
+pub trait LightNumbers {
+    /// Chooses a light, or a part of one.
+    fn choice(&mut self) -> f32;
+    /// A point of the `nth` light that is sampled.
+    fn point(&mut self, nth: u32) -> [f32; 2];
 }
 
-/// [`direct`] from given numbers, weighted against BSDF sampling from `rivals` alone; [`Lobes::NONE`]: not weighted.
+impl LightNumbers for Sampler {
+    #[inline]
+    fn choice(&mut self) -> f32 {
+        self.next_1d()
+    }
+
+    #[inline]
+    fn point(&mut self, _nth: u32) -> [f32; 2] {
+        self.next_2d()
+    }
+}
+
+/// Next-event estimation: light reflected toward `vertex.wo` that arrives straight from sampled lights, each with its
+/// weight against finding the light by BSDF sampling. Not multiplied by any throughput.
+#[inline]
+pub fn direct(scene: &Scene, vertex: &Vertex, numbers: &mut impl LightNumbers, found: impl FnMut(&Direct)) {
+    direct_against(scene, vertex, Lobes::ALL, numbers, found);
+}
+
+/// [`direct`], weighted against BSDF sampling from `rivals` alone; [`Lobes::NONE`]: not weighted.
 #[inline]
 pub fn direct_against(
     scene: &Scene,
     vertex: &Vertex,
     rivals: Lobes,
-    u_light: f32,
-    u: [f32; 2],
-) -> Option<Direct> {
-    direct_weighted(scene, vertex, u_light, u, |sampled| {
+    numbers: &mut impl LightNumbers,
+    found: impl FnMut(&Direct),
+) {
+    let weight = |sampled: &Sampled| {
         if sampled.li.is_delta {
             return 1.0;
         }
         let rival = vertex.bsdf.pdf_w_lobes(vertex.wo, sampled.li.wi, rivals, TransportMode::Radiance);
-        power_heuristic(sampled.pmf * sampled.li.pdf_w, rival)
-    })
+        power_heuristic(sampled.expected * sampled.li.pdf_w, rival)
+    };
+    direct_weighted(scene, vertex, numbers, weight, found);
 }
 
-/// [`direct`] from given numbers at the S surface `vertex`, the end of a chain that merging competes for.
+/// [`direct`] at the S surface `vertex`, the end of a chain that merging competes for.
 pub fn direct_in_chain(
     scene: &Scene,
     vertex: &Vertex,
     chain: &EyeChain,
-    u_light: f32,
-    u: [f32; 2],
-) -> Option<Direct> {
-    direct_weighted(scene, vertex, u_light, u, |sampled| {
+    numbers: &mut impl LightNumbers,
+    found: impl FnMut(&Direct),
+) {
+    let weight = |sampled: &Sampled| {
         let li = &sampled.li;
-        let merge = chain.merge_over_direct(scene, vertex, sampled.light, sampled.pmf, li);
+        let merge = chain.merge_over_direct(scene, vertex, sampled.light, sampled.expected, li);
         let emission = if li.is_delta {
             0.0
         } else {
             let rival = vertex.bsdf.pdf_w(vertex.wo, li.wi, TransportMode::Radiance);
-            f64::from(rival) / (f64::from(sampled.pmf) * f64::from(li.pdf_w))
+            f64::from(rival) / (f64::from(sampled.expected) * f64::from(li.pdf_w))
         };
         (1.0 / (1.0 + merge + emission)) as f32
-    })
+    };
+    direct_weighted(scene, vertex, numbers, weight, found);
 }
 
 /// A light that was sampled.
 pub(crate) struct Sampled {
     pub light: LightId,
-    /// Its probability.
-    pub pmf: f32,
+    /// Expected number of its samples at the vertex.
+    pub expected: f32,
     pub li: LiSample,
 }
 
-/// [`direct`] from given numbers, weighted by a function of what was sampled.
+/// [`direct`], weighted by a function of what was sampled.
 #[inline]
 pub(crate) fn direct_weighted(
     scene: &Scene,
     vertex: &Vertex,
-    u_light: f32,
-    u: [f32; 2],
-    weight: impl FnOnce(&Sampled) -> f32,
-) -> Option<Direct> {
+    numbers: &mut impl LightNumbers,
+    weight: impl Fn(&Sampled) -> f32,
+    mut found: impl FnMut(&Direct),
+) {
     if vertex.bsdf.is_delta_only() {
+        return;
+    }
+    let receiver = vertex.receiver();
+    let u_light = numbers.choice();
+    for nth in 0..scene.direct_picker().draws() {
+        let drawn = scene.direct_picker().draw(&receiver, nth, u_light);
+        let u = numbers.point(nth);
+        if let Some(direct) = from_light(scene, vertex, &drawn, u, &weight) {
+            found(&direct);
+        }
+    }
+}
+
+#[inline]
+fn from_light(
+    scene: &Scene,
+    vertex: &Vertex,
+    drawn: &Drawn,
+    u: [f32; 2],
+    weight: impl Fn(&Sampled) -> f32,
+) -> Option<Direct> {
+    let expected = drawn.expected;
+    if expected == 0.0 {
         return None;
     }
-    let (index, pmf, u_pick) = scene.direct_picker().sample(&vertex.receiver(), u_light);
-    if pmf == 0.0 {
-        return None;
-    }
-    let light = LightId(index as u32);
-    let li = scene.sample_li(light, vertex.hit.p, vertex.hit.ng, u_pick, u)?;
+    let light = LightId(drawn.light as u32);
+    let li = scene.sample_li(light, vertex.hit.p, vertex.hit.ng, drawn.u, u)?;
     let f = vertex.bsdf.eval(vertex.wo, li.wi, TransportMode::Radiance);
     if f.is_zero() || li.radiance.is_zero() {
         return None;
     }
-    let sampled = Sampled { light, pmf, li };
+    let sampled = Sampled { light, expected, li };
     let weight = weight(&sampled);
     let li = sampled.li;
     let ray = if li.distance.is_finite() {
@@ -118,7 +157,7 @@ pub(crate) fn direct_weighted(
     }
     let cos = vertex.bsdf.ns().dot(li.wi).abs();
     let left = vertex.transmittance(scene, li.wi, li.distance);
-    Some(Direct { light, radiance: f * li.radiance * left * (cos * weight / (pmf * li.pdf_w)) })
+    Some(Direct { light, radiance: f * li.radiance * left * (cos * weight / (expected * li.pdf_w)) })
 }
 
 /// A light that a walk met by following its own ray.
@@ -213,6 +252,6 @@ fn densities(
     hit: Option<LightHit>,
 ) -> (f32, f32) {
     let Some(last) = last.filter(|last| last.lit) else { return (f32::INFINITY, 0.0) };
-    let pmf = scene.direct_picker().pmf(light.0 as usize, &last.from);
-    (last.pdf_w, pmf * scene.light(light).pdf_li_w(last.from.p, direction, hit))
+    let expected = scene.direct_picker().expected(light.0 as usize, &last.from);
+    (last.pdf_w, expected * scene.light(light).pdf_li_w(last.from.p, direction, hit))
 }

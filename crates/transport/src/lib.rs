@@ -23,7 +23,7 @@ pub use caustics::{CausticBatch, CausticJob, observe_caustic, trace_caustics};
 pub use chain::{EyeChain, LightChain, LightStart};
 pub use connect::{MergingWeights, connect, connect_light, emission_against_all, escape_against_all};
 pub use direct::{
-    Direct, Emission, direct, direct_against, direct_in_chain, emission_at, emission_escaped,
+    Direct, Emission, LightNumbers, direct, direct_against, direct_in_chain, emission_at, emission_escaped,
     emission_in_chain, escaped_in_chain, power_heuristic,
 };
 pub use emit::{EmittedPhoton, emit, emit_mixed, emit_toward_targets, emit_toward_targets_with};

@@ -21,7 +21,7 @@ impl LightDensities {
     /// For the first vertex of a light path.
     pub fn of_start(scene: &Scene, id: LightId, le: &LeSample, receiver: &Receiver) -> Self {
         let light = scene.light(id);
-        let pmf = f64::from(scene.direct_picker().pmf(id.0 as usize, receiver));
+        let pmf = f64::from(scene.direct_picker().expected(id.0 as usize, receiver));
         let receiver = receiver.p;
         let emission = f64::from(scene.global_picker().pmf(id.0 as usize));
         let emitted = emission * f64::from(le.pdf_a) * f64::from(le.pdf_w);
@@ -36,13 +36,13 @@ impl LightDensities {
     }
 
     /// For a sample of light sampling.
-    pub fn of_direct(scene: &Scene, id: LightId, pmf: f32, li: &LiSample) -> Self {
+    pub fn of_direct(scene: &Scene, id: LightId, expected: f32, li: &LiSample) -> Self {
         let light = scene.light(id);
         let w = -li.wi;
         let hit = light.hit_of_li(li);
         let (pdf_a, pdf_w) = light.pdf_le(&hit, w);
         let emitted = emission_pmf(scene, id) * f64::from(pdf_a) * f64::from(pdf_w);
-        let pmf = f64::from(pmf);
+        let pmf = f64::from(expected);
         if li.is_delta {
             let d2 = if light.is_infinite() { 1.0 } else { f64::from(li.distance).powi(2) };
             return Self { direct: pmf * d2, emitted, cos: 0.0 };
@@ -59,7 +59,7 @@ impl LightDensities {
         let start = hit.unwrap_or(LightHit { p: from, ng: Vec3::ZERO, prim: 0 });
         let (pdf_a, pdf_w) = light.pdf_le(&start, -wi);
         let cos = hit.map_or(1.0, |hit| f64::from(hit.ng.dot(wi).abs()));
-        let pmf = f64::from(scene.direct_picker().pmf(id.0 as usize, &end.from));
+        let pmf = f64::from(scene.direct_picker().expected(id.0 as usize, &end.from));
         Self {
             direct: pmf * f64::from(light.pdf_li_w(from, wi, hit)) * cos,
             emitted: emission_pmf(scene, id) * f64::from(pdf_a) * f64::from(pdf_w),

@@ -33,7 +33,11 @@ fn ball(center: [f32; 3], material: Material) -> Object {
 
 /// A room of diffuse, rough, coated, mirroring and refracting things with one kind of light; an open one for lights at
 /// infinity.
-fn room(lens: CameraKind, lamps: impl IntoIterator<Item = Object>, light: Option<LightKind>) -> Scene {
+fn room(
+    lens: CameraKind,
+    lamps: impl IntoIterator<Item = Object>,
+    lights: impl IntoIterator<Item = LightKind>,
+) -> Scene {
     let wall =
         |origin, edge_u, edge_v| Object::new(Shape::Quad { origin, edge_u, edge_v }, Material::diffuse(0.7));
     let mut objects = vec![
@@ -60,7 +64,7 @@ fn room(lens: CameraKind, lamps: impl IntoIterator<Item = Object>, light: Option
     let mut desc = SceneDesc {
         camera: Some(camera.into()),
         objects: objects.into_iter().map(Into::into).collect(),
-        lights: light.into_iter().map(|kind| Light::from(kind).into()).collect(),
+        lights: lights.into_iter().map(|kind| Light::from(kind).into()).collect(),
         ..SceneDesc::default()
     };
     desc.film.size = [32, 24];
@@ -117,11 +121,23 @@ struct Tally {
     walked: usize,
 }
 
+/// Planted errors: factors, 1 where there is none.
+#[derive(Clone, Copy)]
+struct Fault {
+    /// On one number of the recursion.
+    recursion: f32,
+    /// On the expected number of light samples.
+    lights: f64,
+}
+
+impl Fault {
+    const NONE: Self = Self { recursion: 1.0, lights: 1.0 };
+}
+
 struct Checker<'s> {
     scene: &'s Scene,
     tally: Tally,
-    /// Multiplies one number of the recursion: a planted error.
-    fault: f32,
+    fault: Fault,
 }
 
 fn merging(vertex: &nephroid_transport::Vertex) -> f64 {
@@ -171,7 +187,7 @@ impl Checker<'_> {
             let (back, on) = ways(node);
             let cos = |w: math::Vec3| f64::from(node.vertex.hit.ng.dot(w).abs());
             let mut arrived = leaving.arrived(d2, cos(back));
-            arrived.merges *= self.fault;
+            arrived.merges *= self.fault.recursion;
             all.push(arrived);
             leaving = if node.specular {
                 arrived.passed(cos(on) * ratio(&node.vertex, back, on))
@@ -196,7 +212,7 @@ impl Checker<'_> {
 
     /// Compares the weight of every technique that may make this path; fails where the sum is not 1.
     fn check(&mut self, path: &FullPath) -> Result<(), String> {
-        let explicit = Explicit::new(self.scene, path, ETA, FILM_DENSITY);
+        let explicit = Explicit::new(self.scene, path, ETA, FILM_DENSITY).times_drawn(self.fault.lights);
         let total = explicit.total();
         if !total.is_normal() {
             return Ok(());
@@ -258,7 +274,13 @@ impl Checker<'_> {
         // Light sampling.
         if let Some((sampler, unweighted)) = path.light.drawn {
             let mut sampler = sampler;
-            if let Some(direct) = connect_light(scene, &at(0, last.to_camera, &eye), ETA, &mut sampler) {
+            let mut met = None;
+            connect_light(scene, &at(0, last.to_camera, &eye), ETA, &mut sampler, |direct| {
+                if direct.light == path.light.id {
+                    met = Some(*direct);
+                }
+            });
+            if let Some(direct) = met {
                 let found = direct.radiance.mean() / unweighted;
                 compare("direct", f64::from(found), explicit.direct(), &mut self.tally.direct)?;
             } else {
@@ -331,7 +353,7 @@ impl Checker<'_> {
 }
 
 /// Random paths of a scene, each found by emission, light sampling or a connection.
-fn check_scene(scene: &Scene, paths: u64, fault: f32) -> Result<Tally, String> {
+fn check_scene(scene: &Scene, paths: u64, fault: Fault) -> Result<Tally, String> {
     let mut checker = Checker { scene, tally: Tally::default(), fault };
     for index in 0..paths {
         let mut sampler = Sampler::new(7, 0, Domain::Other, index);
@@ -353,8 +375,7 @@ fn check_scene(scene: &Scene, paths: u64, fault: f32) -> Result<Tally, String> {
                     checker.check(&path)?;
                 }
                 let Some(at) = vertex.filter(|at| !at.vertex.bsdf.is_delta_only()) else { return Ok(()) };
-                let path = FullPath::by_light_sampling(scene, walked, at, ray.origin, u_lens, *sampler);
-                if let Some(path) = path {
+                for path in FullPath::by_light_sampling(scene, walked, at, ray.origin, u_lens, *sampler) {
                     checker.check(&path)?;
                 }
                 let Some((point, light)) = &light else { return Ok(()) };
@@ -412,6 +433,7 @@ fn scenes() -> Vec<(&'static str, Scene)> {
             glow(if i % 2 == 0 { disk } else { globe }, i % 4 == 0)
         })
         .collect();
+    let few = many[..2].to_vec();
     vec![
         ("disk", room(pinhole, glow(disk.clone(), false), None)),
         ("disk, thin lens", room(lens, glow(disk.clone(), false), None)),
@@ -426,6 +448,8 @@ fn scenes() -> Vec<(&'static str, Scene)> {
         ("textured sphere", room(pinhole, glow_by("pattern", globe.clone()), None)),
         ("point", room(pinhole, None, Some(point))),
         ("spot", room(pinhole, None, Some(spot))),
+        ("sun and sky", room(pinhole, None, [sun.clone(), sky.clone()])),
+        ("sun, sky and two lamps", room(pinhole, few, [sun.clone(), sky.clone()])),
         ("sun", room(pinhole, None, Some(sun))),
         ("sky, thin lens", room(lens, None, Some(sky))),
     ]
@@ -436,7 +460,7 @@ fn recursive_weights_are_the_explicit_ones_and_sum_to_1() {
     for (name, scene) in scenes() {
         // Most of all directions see nothing there.
         let paths = if name.ends_with("all directions") { 3000 } else { 1500 };
-        let tally = check_scene(&scene, paths, 1.0).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let tally = check_scene(&scene, paths, Fault::NONE).unwrap_or_else(|e| panic!("{name}: {e}"));
         let seen = [tally.direct, tally.connection, tally.merge, tally.projection, tally.walked];
         assert!(seen.iter().all(|&n| n > 200), "{name}: {tally:?}");
         let delta = scene.lights().iter().all(|l| l.is_delta());
@@ -444,9 +468,13 @@ fn recursive_weights_are_the_explicit_ones_and_sum_to_1() {
     }
 }
 
-/// One per cent in one of the three numbers is found.
+/// One per cent in one of the three numbers is found, and in how often lights are sampled.
 #[test]
 fn a_planted_error_is_found() {
-    let (_, scene) = scenes().swap_remove(0);
-    assert!(check_scene(&scene, 300, 1.01).is_err());
+    for (name, scene) in scenes() {
+        if ["disk", "sun, sky and two lamps"].contains(&name) {
+            assert!(check_scene(&scene, 300, Fault { recursion: 1.01, ..Fault::NONE }).is_err(), "{name}");
+            assert!(check_scene(&scene, 300, Fault { lights: 1.01, ..Fault::NONE }).is_err(), "{name}");
+        }
+    }
 }

@@ -15,6 +15,7 @@ use transport::{
 use super::{Merging, Plan};
 use crate::Maps;
 use crate::VcmTechniques;
+use crate::numbers::VertexNumbers;
 use crate::pixels::{CameraPath, Tracer};
 use crate::sink::{Origin, Sink, Source, Technique};
 
@@ -42,7 +43,7 @@ impl<'a> Eye<'a> {
 impl Tracer for Eye<'_> {
     #[inline]
     fn trace<S: Sink>(&self, path: CameraPath<'_>, sink: &mut S) {
-        let CameraPath { walk, mut sampler, film_position, .. } = path;
+        let CameraPath { walk, mut sampler, strata, film_position, .. } = path;
         let plan = &self.plan;
         let (ray, camera) = (walk.ray, walk.scene().camera());
         // Light paths are joined to what is in the picture. A picture of all directions has what lies beyond its border
@@ -83,6 +84,8 @@ impl Tracer for Eye<'_> {
                 });
                 let reached = Reached { at: &at, class: class.scattered(specular), radius, eta };
                 if plan.connections == Connections::Made {
+                    let mut numbers = VertexNumbers::new(&strata, &mut sampler, path.walk.depth);
+                    self.light(&path, &reached, &mut numbers, sink);
                     self.join(&path, &reached, &mut lights, &mut sampler, sink);
                 }
                 if plan.merging != Merging::Never && at.is_merged() {
@@ -125,7 +128,26 @@ impl Eye<'_> {
         sink.add(origin, path.walk.throughput * e.radiance * weight);
     }
 
-    /// Light sampling, and connections with the vertices of one light path.
+    /// Light sampling.
+    #[inline]
+    fn light(
+        &self,
+        path: &Subpath<'_>,
+        here: &Reached<'_>,
+        numbers: &mut VertexNumbers<'_>,
+        sink: &mut impl Sink,
+    ) {
+        connect_light(path.scene(), here.at, here.eta, numbers, |direct| {
+            let origin = Origin {
+                layer: here.class.layer(),
+                technique: Technique::Direct,
+                source: Source::Light(direct.light),
+            };
+            sink.add(origin, path.walk.throughput * direct.radiance);
+        });
+    }
+
+    /// Connections with the vertices of one light path.
     #[inline]
     fn join(
         &self,
@@ -136,14 +158,6 @@ impl Eye<'_> {
         sink: &mut impl Sink,
     ) {
         let (scene, walk) = (path.scene(), &path.walk);
-        if let Some(direct) = connect_light(scene, here.at, here.eta, sampler) {
-            let origin = Origin {
-                layer: here.class.layer(),
-                technique: Technique::Direct,
-                source: Source::Light(direct.light),
-            };
-            sink.add(origin, walk.throughput * direct.radiance);
-        }
         let vertices = lights.vertices.get_or_insert_with(|| {
             // Any of them, whatever the pixel.
             let index = (u64::from(sampler.next_u32()) * self.plan.count) >> 32;

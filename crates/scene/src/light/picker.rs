@@ -1,97 +1,7 @@
 use sampling::Discrete;
 
-use super::tree::{self, LightTree};
-use super::{Light, Receiver};
+use super::Light;
 use crate::target::Targets;
-
-/// Lights at finite places from which on a tree chooses among them.
-const TREE_FROM: usize = 9;
-
-/// Chooses a light for direct light at a receiver.
-#[derive(Clone, Debug)]
-pub enum DirectPicker {
-    /// Few lights: the same everywhere.
-    Even(LightPicker),
-    /// Many: those at infinity the same everywhere, ½ by power and ½ alike (all others counting as one); the others by a tree.
-    Tree(Box<TreePicker>),
-}
-
-/// [`DirectPicker::Tree`].
-#[derive(Clone, Debug)]
-pub struct TreePicker {
-    /// Lights at infinity by index, and after them the tree.
-    first: Discrete,
-    infinite: Vec<usize>,
-    tree: LightTree,
-}
-
-impl DirectPicker {
-    /// For these lights.
-    pub fn new(lights: &[Light]) -> Self {
-        if lights.iter().filter(|l| tree::is_local(l)).count() < TREE_FROM {
-            Self::Even(LightPicker::direct(lights))
-        } else {
-            Self::tree(lights)
-        }
-    }
-
-    /// By a tree, however few there are.
-    pub fn tree(lights: &[Light]) -> Self {
-        let powers = powers(lights);
-        let infinite: Vec<usize> =
-            (0..lights.len()).filter(|&i| lights[i].is_infinite() && powers[i] > 0.0).collect();
-        let tree = LightTree::new(lights);
-        let total: f64 = powers.iter().sum();
-        let far: f64 = infinite.iter().map(|&i| powers[i]).sum();
-        let local = if tree.is_empty() { 0.0 } else { 1.0 };
-        let count = infinite.len() as f64 + local;
-        let shares = infinite.iter().map(|&i| powers[i] / total + 1.0 / count);
-        let rest = if tree.is_empty() { 0.0 } else { (total - far) / total + 1.0 / count };
-        let first = Discrete::new(shares.chain([rest]));
-        Self::Tree(Box::new(TreePicker { first, infinite, tree }))
-    }
-
-    /// Index of a light for `u` in [0, 1), its probability at the receiver, and `u` mapped back to [0, 1) for reuse. Where there
-    /// is no light that shines there the probability is 0.
-    #[inline]
-    pub fn sample(&self, at: &Receiver, u: f32) -> (usize, f32, f32) {
-        match self {
-            Self::Even(picker) => picker.sample(u),
-            Self::Tree(picker) => picker.sample(&{ *at }, u),
-        }
-    }
-
-    /// Probability of a light at the receiver.
-    #[inline]
-    pub fn pmf(&self, light: usize, at: &Receiver) -> f32 {
-        match self {
-            Self::Even(picker) => picker.pmf(light),
-            Self::Tree(picker) => picker.pmf(light, &{ *at }),
-        }
-    }
-}
-
-impl TreePicker {
-    #[inline(never)]
-    fn sample(&self, at: &Receiver, u: f32) -> (usize, f32, f32) {
-        let (index, p, u) = self.first.sample(u);
-        match self.infinite.get(index) {
-            Some(&light) => (light, p, u),
-            None => match self.tree.sample(at, u) {
-                Some((light, pmf, u)) => (light, p * pmf, u),
-                None => (0, 0.0, u),
-            },
-        }
-    }
-
-    #[inline(never)]
-    fn pmf(&self, light: usize, at: &Receiver) -> f32 {
-        match self.infinite.iter().position(|&i| i == light) {
-            Some(index) => self.first.pmf(index),
-            None => self.first.pmf(self.infinite.len()) * self.tree.pmf(light, at),
-        }
-    }
-}
 
 /// Chooses a light; the probabilities are exact, so any choice leaves estimates unbiased.
 #[derive(Clone, Debug, Default)]
@@ -105,9 +15,12 @@ const ESTIMATE_SAMPLES_OF_ALL: usize = 1 << 18;
 const LEAST_ESTIMATE_SAMPLES: usize = 32;
 
 impl LightPicker {
-    /// For direct light: ½ by power, ½ uniform over the lights that have any.
-    pub fn direct(lights: &[Light]) -> Self {
-        Self::with_floor(&powers(lights))
+    /// For direct light from lights at infinity: ½ by power, ½ uniform over those that have any; no other light.
+    pub fn far(lights: &[Light]) -> Self {
+        let power = |light: &Light| if light.is_infinite() { f64::from(light.power().mean()) } else { 0.0 };
+        let weights: Vec<f64> = lights.iter().map(power).collect();
+        let seen: Vec<bool> = weights.iter().map(|&w| w > 0.0).collect();
+        Self::mixed(&weights, &seen)
     }
 
     /// For photons of the global map: by power, so that all carry like flux.
@@ -125,11 +38,6 @@ impl LightPicker {
         let estimate = |(l, &lit): (&Light, &bool)| if lit { power_toward(l, targets, samples) } else { 0.0 };
         let sent: Vec<f64> = lights.iter().zip(&lit).map(estimate).collect();
         Self::mixed(&sent, &lit)
-    }
-
-    fn with_floor(weights: &[f64]) -> Self {
-        let seen: Vec<bool> = weights.iter().map(|&w| w > 0.0).collect();
-        Self::mixed(weights, &seen)
     }
 
     fn mixed(weights: &[f64], lit: &[bool]) -> Self {

@@ -214,11 +214,9 @@ fn dim_lights_are_not_starved() {
     let targets = targets();
     let point = |x: f32, i: f32| Light::Point(PointLight::new(Vec3::new(x, 1.5, 0.0), lanes(i)).unwrap());
     let lights = vec![point(0.0, 1e4), point(0.5, 1.0), point(-0.5, 0.0)];
-    for (picker, floor) in [
-        (LightPicker::direct(&lights), 0.25),
-        (LightPicker::caustics(&lights, &targets), 0.25),
-        (LightPicker::photons(&lights), 0.0),
-    ] {
+    for (picker, floor) in
+        [(LightPicker::caustics(&lights, &targets), 0.25), (LightPicker::photons(&lights), 0.0)]
+    {
         let pmf: Vec<f32> = (0..3).map(|i| picker.pmf(i)).collect();
         assert!((pmf.iter().sum::<f32>() - 1.0).abs() < 1e-6 && pmf[2] == 0.0, "{pmf:?}");
         assert!(pmf[1] >= floor && pmf[0] > pmf[1], "{pmf:?}");
@@ -253,7 +251,7 @@ fn dim_lights_are_not_starved() {
     let lit = [point(0.0, 1.0), point(0.0, 3.0)];
     let picker = LightPicker::caustics(&lit, &targets);
     assert!((picker.pmf(0) - 0.375).abs() < 1e-6, "{}", picker.pmf(0));
-    let none = LightPicker::direct(&[]);
+    let none = LightPicker::far(&[]);
     assert!(none.is_empty() && none.sample(0.5).1 == 0.0);
 }
 

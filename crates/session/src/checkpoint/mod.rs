@@ -25,7 +25,7 @@ pub(crate) use saver::{Attempt, Saver};
 /// First bytes of a checkpoint. The last two tell a file that was copied as text.
 const MAGIC: [u8; 8] = *b"NEPHRO\r\n";
 /// Of the format; any change of it, of what the film holds or of what a pass is gives another.
-const FORMAT: u32 = 1;
+const FORMAT: u32 = 2;
 
 /// A render as it was when it was saved.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,7 +5,7 @@ use bsdf::{BsdfKind, Lobes, TransportMode};
 use math::Vec3;
 use nephroid_transport::{PathVertex, Sides, Subpath, Vertex};
 use sampling::Sampler;
-use scene::light::{LeSample, LightHit};
+use scene::light::{LeSample, LiSample, LightHit};
 use scene::{LightId, Scene};
 
 use crate::Walked;
@@ -93,7 +93,7 @@ impl FullPath {
         lights.into_iter().map(path).collect()
     }
 
-    /// The path that light sampling at `at` makes with these numbers, if any.
+    /// The paths that light sampling at `at` makes with these numbers.
     pub fn by_light_sampling(
         scene: &Scene,
         walked: &Walked,
@@ -101,23 +101,43 @@ impl FullPath {
         lens: Vec3,
         u_lens: [f32; 2],
         sampler: Sampler,
-    ) -> Option<Self> {
+    ) -> Vec<Self> {
         let mut numbers = sampler;
-        let (index, pmf, u_pick) = scene.direct_picker().sample(&at.vertex.receiver(), numbers.next_1d());
-        let id = LightId(index as u32);
-        let vertex = &at.vertex;
-        let li = scene.sample_li(id, vertex.hit.p, vertex.hit.ng, u_pick, numbers.next_2d())?;
-        let f = vertex.bsdf.eval(vertex.wo, li.wi, TransportMode::Radiance);
-        let unweighted = (f * li.radiance * (vertex.bsdf.abs_cos(li.wi) / (pmf * li.pdf_w))).mean();
-        if unweighted == 0.0 {
-            return None;
+        let (vertex, picker) = (&at.vertex, scene.direct_picker());
+        let u_light = numbers.next_1d();
+        let mut paths = Vec::new();
+        for nth in 0..picker.draws() {
+            let drawn = picker.draw(&vertex.receiver(), nth, u_light);
+            let u = numbers.next_2d();
+            let light = LightId(drawn.light as u32);
+            let li = (drawn.expected > 0.0)
+                .then(|| scene.sample_li(light, vertex.hit.p, vertex.hit.ng, drawn.u, u))
+                .flatten();
+            let path = li.and_then(|li| {
+                let (light, nodes) = Self::to_sampled(scene, walked, at, light, &li)?;
+                let f = vertex.bsdf.eval(vertex.wo, li.wi, TransportMode::Radiance);
+                let cos = vertex.bsdf.abs_cos(li.wi);
+                let unweighted = (f * li.radiance * (cos / (drawn.expected * li.pdf_w))).mean();
+                let light = LightPoint { drawn: Some((sampler, unweighted)), ..light };
+                (unweighted > 0.0).then_some(Self { light, nodes, lens, u_lens })
+            });
+            paths.extend(path);
         }
+        paths
+    }
+
+    fn to_sampled(
+        scene: &Scene,
+        walked: &Walked,
+        at: &PathVertex,
+        id: LightId,
+        li: &LiSample,
+    ) -> Option<(LightPoint, Vec<Node>)> {
         let front = if scene.light(id).emitted(li.n, -li.wi).is_zero() { -li.n } else { li.n };
         let mut light = LightPoint::at(scene, id, &LightHit { p: li.p, ng: front, prim: li.prim }, -li.wi);
-        light.drawn = Some((sampler, unweighted));
         let upto = with(walked, at);
         // The light's own surface, for emission at the end of the same path.
-        let mut ray = vertex.hit.spawn_ray(li.wi);
+        let mut ray = at.vertex.hit.spawn_ray(li.wi);
         ray.t_max = f32::INFINITY;
         match scene.intersect(&ray) {
             Some(hit) if hit.light == Some(id) => {
@@ -129,7 +149,7 @@ impl FullPath {
             Some(_) if li.distance.is_infinite() => return None,
             _ => {}
         }
-        Some(Self { light, nodes: eye_nodes(&upto, li.wi), lens, u_lens })
+        Some((light, eye_nodes(&upto, li.wi)))
     }
 
     /// The path that a connection of `at` with the last vertex of a light path makes, if neither is specular alone.
@@ -257,7 +277,7 @@ impl<'p> Explicit<'p> {
         }
         let geometry = if far { 1.0 } else { f64::from(le.cos) / first };
         from_eye[0] = if delta { 0.0 } else { backward(0) * geometry };
-        let direct = f64::from(scene.direct_picker().pmf(index, &nodes[0].vertex.receiver()));
+        let direct = f64::from(scene.direct_picker().expected(index, &nodes[0].vertex.receiver()));
         let front = if light.emitted(le.n, le.w).is_zero() { -le.n } else { le.n };
         let hit = (!far).then_some(LightHit { p: le.p, ng: front, prim: le.prim });
         let drawn = match delta {
@@ -265,6 +285,11 @@ impl<'p> Explicit<'p> {
             false => direct * f64::from(light.pdf_li_w(p(0), -le.w, hit)) * geometry,
         };
         Self { path, drawn, light: from_light, eye: from_eye, eta }
+    }
+
+    /// With a factor on the density of light sampling.
+    pub fn times_drawn(self, factor: f64) -> Self {
+        Self { drawn: self.drawn * factor, ..self }
     }
 
     fn joins(&self, i: usize) -> bool {
