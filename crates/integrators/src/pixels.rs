@@ -87,6 +87,16 @@ pub(crate) fn trace_pixels(scene: &Scene, settings: &Settings, pass: u64, tracer
     Traced { samples, layers: None }
 }
 
+/// Passes after which textures are averaged over half of a pixel's width.
+const SHARPENING: f64 = 6.0;
+
+/// What of a pixel's width textures are averaged over in a pass: all of it at first, so that few passes show no grain, and less and
+/// less, for many passes average by themselves, and over the pixel as the filter has it. Of a width w, N passes leave
+/// w·(6/N)·ln(1 + N/6).
+fn texture_share(pass: u64) -> f32 {
+    (SHARPENING / (SHARPENING + pass as f64)) as f32
+}
+
 /// The eye path of a pass through a pixel.
 #[inline]
 pub(crate) fn start<'s>(
@@ -104,7 +114,8 @@ pub(crate) fn start<'s>(
     let camera = scene.camera().sample_we(film_position, sampler.next_2d());
     let media = scene.camera_medium(camera.ray.origin);
     let walk = Walk::new(scene, TransportMode::Radiance, camera.ray, Lanes::ONE, media)
-        .with_footprint(camera.width, camera.spread);
+        .with_footprint(camera.width, camera.spread)
+        .with_texture_share(texture_share(pass));
     let strata = Strata::new(settings.seed.rotate_left(32) ^ pixel, pass);
     CameraPath { walk, film_position, sampler, strata, weight: filter.weight * camera.weight }
 }

@@ -32,6 +32,8 @@ pub struct Walk<'s> {
     /// Width of the ray's footprint at the last vertex, and its growth per length.
     footprint: f32,
     spread: f32,
+    /// What of it textures are averaged over.
+    texture_share: f32,
     /// Square of the relative index that β was scaled by at refractions: radiance is not lost there.
     eta_scale: f32,
     /// Where the last scattering happened and how, for weights of what the ray meets.
@@ -123,6 +125,7 @@ impl<'s> Walk<'s> {
             media,
             footprint: 0.0,
             spread: 0.0,
+            texture_share: 1.0,
             eta_scale: 1.0,
             last: None,
             clear: true,
@@ -134,6 +137,13 @@ impl<'s> Walk<'s> {
     pub fn with_footprint(mut self, width: f32, spread: f32) -> Self {
         self.footprint = width;
         self.spread = spread;
+        self
+    }
+
+    /// Averages textures over a part of the footprint's width, from 0 to 1.
+    #[inline]
+    pub fn with_texture_share(mut self, share: f32) -> Self {
+        self.texture_share = share;
         self
     }
 
@@ -168,7 +178,7 @@ impl<'s> Walk<'s> {
                 }
             };
             let wo = -self.ray.direction;
-            let bsdf = self.scene.bsdf(&hit, wo, eta, self.footprint);
+            let bsdf = self.scene.bsdf(&hit, wo, eta, self.footprint * self.texture_share);
             let sides = if self.scene.absorbs() {
                 let medium = self.scene.medium(&hit);
                 sides(&{ self.media }, medium, self.ray.direction.dot(hit.ng) < 0.0)

@@ -26,6 +26,7 @@ mod oracle;
 mod partition;
 mod replay;
 mod shaped_lights;
+mod sharp_textures;
 mod sky;
 mod sppm;
 mod support;
