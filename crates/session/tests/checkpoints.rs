@@ -350,6 +350,6 @@ fn every_flipped_bit_and_every_cut_is_noticed() {
     let mut longer = bytes.clone();
     longer.push(0);
     assert!(read(&longer).is_err());
-    let other = [&bytes[..8], &[2, 0, 0, 0], &bytes[12..]].concat();
-    assert!(read(&other).unwrap_err().to_string().contains("format 2"));
+    let other = [&bytes[..8], &[9, 0, 0, 0], &bytes[12..]].concat();
+    assert!(read(&other).unwrap_err().to_string().contains("format 9"));
 }
