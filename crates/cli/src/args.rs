@@ -7,9 +7,9 @@ use std::time::Duration;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use nephroid::desc::IntegratorKind;
-use nephroid::{Crop, Extent, PhotonKind};
+use nephroid::{Crop, Exposure, Extent, PhotonKind, ViewTransform, WhiteBalance};
 
-use crate::values::{CameraSets, Previews, Size};
+use crate::values::{CameraSets, GroupFactor, Previews, Size};
 use crate::{span, values};
 
 /// Renders global illumination and caustics with photon maps.
@@ -35,6 +35,8 @@ pub enum Command {
     Resume(ResumeArgs),
     /// Add up checkpoints that hold different passes of one scene.
     Merge(MergeArgs),
+    /// Show a picture in another way, or mix its lights anew, without rendering.
+    Develop(DevelopArgs),
     /// Say what is in a scene or a checkpoint, without rendering it.
     Info(InfoArgs),
     /// Trace one path of a render again and print it, vertex by vertex.
@@ -112,9 +114,9 @@ pub struct Changes {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub max_depth: Option<u32>,
 
-    /// Exposure of PNG pictures in EV (stops): radiance is multiplied by 2^EV [default: the scene's, or 0].
-    #[arg(long, value_name = "EV", allow_negative_numbers = true, value_parser = values::exposure)]
-    pub exposure: Option<f32>,
+    /// How PNG pictures are shown.
+    #[command(flatten)]
+    pub display: DisplayArgs,
 
     /// Replace any value of the scene, as photon_map.knn=80 or materials.glass.ior=1.5 (a TOML value); may be given
     /// several times. Of scenes of other programs, names are those that `nephroid convert` writes.
@@ -128,6 +130,29 @@ impl Changes {
         let camera = self.camera.iter().flat_map(|camera| camera.0.iter());
         camera.chain(&self.set).cloned().collect()
     }
+}
+
+/// How PNG pictures show radiance; nothing of it changes what is rendered.
+#[derive(Clone, Debug, Default, Args)]
+pub struct DisplayArgs {
+    /// Exposure of PNG pictures in EV (stops): radiance is multiplied by 2^EV; or auto, as the picture asks for
+    /// [default: the scene's, or auto].
+    #[arg(long, value_name = "EV|auto", allow_negative_numbers = true, value_parser = values::exposure)]
+    pub exposure: Option<Exposure>,
+
+    /// Light that PNG pictures show as white: a temperature, as 3200K, an illuminant, as D50, A or F11, auto or none
+    /// [default: the scene's, or none].
+    #[arg(long, value_name = "LIGHT", value_parser = values::white_balance)]
+    pub white_balance: Option<WhiteBalance>,
+
+    /// How PNG pictures turn radiance into display colours: agx, agx-punchy, aces-like, srgb or false-colour [default:
+    /// the scene's, or agx].
+    #[arg(long, value_name = "VIEW", value_parser = values::view)]
+    pub view: Option<ViewTransform>,
+
+    /// Look-up table for the display colours of PNG pictures, applied after the view [default: the scene's, or none].
+    #[arg(long, value_name = "FILE.cube")]
+    pub lut: Option<PathBuf>,
 }
 
 /// Arguments of `render`.
@@ -236,6 +261,10 @@ pub struct ResumeArgs {
     #[arg(short, long = "output", value_name = "OUT")]
     pub output: Vec<PathBuf>,
 
+    /// How PNG pictures are shown.
+    #[command(flatten)]
+    pub display: DisplayArgs,
+
     /// How often to save.
     #[arg(long, value_name = "TIME", default_value = "1m", value_parser = span::parse)]
     pub checkpoint_every: Duration,
@@ -255,6 +284,36 @@ pub struct MergeArgs {
     /// What to write: a picture (.exr or .png) or a checkpoint (.neph); may be given several times.
     #[arg(short, long = "output", value_name = "OUT", required = true)]
     pub output: Vec<PathBuf>,
+
+    /// How PNG pictures are shown.
+    #[command(flatten)]
+    pub display: DisplayArgs,
+
+    /// Say nothing but what went wrong.
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// Arguments of `develop`.
+#[derive(Debug, Args)]
+pub struct DevelopArgs {
+    /// The picture: .exr, of any program, or a checkpoint.
+    #[arg(value_name = "FILE.exr|FILE.neph")]
+    pub file: PathBuf,
+
+    /// Picture to write: .png (8 bits, displayed) or .exr (linear, lights mixed); may be given several times.
+    #[arg(short, long = "output", value_name = "OUT", required = true)]
+    pub output: Vec<PathBuf>,
+
+    /// Multiply the light of a group (light_group in scene files), as sun=0.5 or lamp=2,#ffd0a0; the colour is
+    /// r,g,b, #rrggbb or a temperature as 3000K; may be given several times. The picture must have been rendered with
+    /// --layers lights.
+    #[arg(long, value_name = "GROUP=FACTOR[,COLOUR]", value_parser = values::light)]
+    pub light: Vec<GroupFactor>,
+
+    /// How PNG pictures are shown.
+    #[command(flatten)]
+    pub display: DisplayArgs,
 
     /// Say nothing but what went wrong.
     #[arg(short, long)]

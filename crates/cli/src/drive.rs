@@ -5,7 +5,7 @@ use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use nephroid::{Control, Event, Film, MapReport, Output, Phase, PictureInfo, Session, Timings};
+use nephroid::{Control, Event, Film, MapReport, Output, OutputKind, Phase, PictureInfo, Session, Timings};
 
 use serde_json::json;
 
@@ -231,6 +231,13 @@ pub fn write(
                 progress.error(&format!("{error}\n  = help: {}", error.help()));
                 all = false;
             }
+        }
+    }
+    if all && outputs.iter().any(|output| output.kind() == OutputKind::Png) {
+        let settled = info.settle(film);
+        if settled.is_automatic || settled.found_kelvin.is_some() {
+            let values = json!({ "exposure_ev": settled.ev, "light_k": settled.found_kelvin });
+            progress.object("display", &settled.text(), values);
         }
     }
     timings.add(Phase::Write, start.elapsed());

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use nephroid::desc::{self, FilterKind, IntegratorKind, LightKind, Render, View};
+use nephroid::desc::{self, Exposure, FilterKind, IntegratorKind, LightKind, Render, WhiteBalance};
 use nephroid::{Checkpoint, Lanes, Light, SceneDesc, Survey, film_bytes, light_kind, scene_hash, shape_kind};
 
 use crate::args::InfoArgs;
@@ -49,15 +49,16 @@ pub fn settings(text: &mut String, desc: &SceneDesc) {
         FilterKind::Mitchell => "mitchell",
         FilterKind::BlackmanHarris => "blackman-harris",
     };
-    let view = match desc.film.view {
-        View::Agx => "agx",
-        View::Srgb => "srgb",
+    let exposure = match desc.film.exposure {
+        Exposure::Auto => "automatic exposure".to_owned(),
+        Exposure::Ev(ev) => format!("exposure {ev} EV"),
     };
-    row(
-        text,
-        "picture",
-        &format!("{w}x{h}, {filter} filter, exposure {} EV, view {view}", desc.film.exposure),
-    );
+    let white = match desc.film.white_balance {
+        WhiteBalance::None => String::new(),
+        balance => format!(", white balance {}", balance.text()),
+    };
+    let view = desc.film.view.name();
+    row(text, "picture", &format!("{w}x{h}, {filter} filter, {exposure}{white}, view {view}"));
     let Render { passes, seed, max_depth, .. } = desc.render;
     let depth = max_depth.map_or("unlimited depth".to_owned(), |d| format!("depth {d}"));
     let name = desc.render.integrator.name();

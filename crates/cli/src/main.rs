@@ -5,6 +5,8 @@ mod checkpoint;
 mod compare;
 mod convert;
 mod describe;
+mod develop;
+mod display;
 mod drive;
 mod failure;
 mod grain;
@@ -40,6 +42,7 @@ fn main() -> ExitCode {
         Command::Render(args) => render::run(&args),
         Command::Resume(args) => resume::run(&args),
         Command::Merge(args) => merge::run(&args),
+        Command::Develop(args) => develop::run(&args),
         Command::Info(args) => info::run(&args),
         Command::Replay(args) => replay::run(&args),
         Command::Convert(args) => convert::run(&args),

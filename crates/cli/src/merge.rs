@@ -2,12 +2,11 @@
 
 use std::path::Path;
 
-use nephroid::{
-    Checkpoint, CheckpointFile, MergeError, PictureInfo, Timings, gaps, merge, overwritten_inputs, said,
-};
+use nephroid::{Checkpoint, CheckpointFile, MergeError, Timings, gaps, merge, overwritten_inputs, said};
 
 use crate::args::MergeArgs;
 use crate::checkpoint;
+use crate::display::picture_info;
 use crate::drive::{passes, say_replaced, write};
 use crate::failure::{FAILED, Failure, OK, Outcome};
 use crate::grain;
@@ -62,6 +61,7 @@ pub fn run(args: &MergeArgs) -> Outcome {
         };
         say::say(&format!("{what} {} of {files}{note}", passes(film.passes())));
     }
+    let picture = picture_info(&info.desc, info.hash, &args.display)?;
     let mut code = OK;
     for file in &files {
         match file.write(&info, &film) {
@@ -78,7 +78,6 @@ pub fn run(args: &MergeArgs) -> Outcome {
             }
         }
     }
-    let picture = PictureInfo::new(&info.desc, info.hash);
     if !write(&outputs, &film, &picture, &progress, &mut Timings::default()) {
         code = FAILED;
     }

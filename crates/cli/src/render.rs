@@ -3,14 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use nephroid::{
-    CheckpointFile, CheckpointInfo, Format, Job, Output, PictureError, PictureInfo, Session, SessionError,
-    check_outputs, desc, overwritten_inputs, scene_hash,
+    CheckpointFile, CheckpointInfo, Format, Job, Output, PictureError, Session, SessionError, check_outputs,
+    desc, overwritten_inputs, scene_hash,
 };
 
 use serde_json::json;
 
 use crate::args::{Layers, RenderArgs};
 use crate::checkpoint;
+use crate::display::picture_info;
 use crate::drive::{Drive, absolute, drive, say_replaced};
 use crate::failure::{Failure, OK, Outcome};
 use crate::places;
@@ -95,6 +96,11 @@ fn read(
         described.desc.film.layers =
             desc::Layers { techniques: has(Layers::Techniques), lights: has(Layers::Lights) };
     }
+    if let Some(lut) = &args.changes.display.lut {
+        // As the scene's own, that a checkpoint knows it; whoever resumes may be in another folder.
+        let lut = std::path::absolute(lut).unwrap_or_else(|_| lut.clone());
+        described.desc.film.lut = Some(lut.into());
+    }
     let replaced = overwritten_inputs(outputs, &described.desc);
     if !replaced.is_empty() {
         return Err(Failure::Usage(replaced.iter().map(refusal).collect()));
@@ -135,7 +141,7 @@ fn render(args: &RenderArgs, prepared: Prepared<'_>, interrupt: &Interrupt) -> O
             hash
         }
     };
-    let info = PictureInfo::new(desc, hash);
+    let info = picture_info(desc, hash, &args.changes.display)?;
     say_replaced(&progress, outputs);
     let again = scene_arguments(path, &args.changes);
     let timings = described.timings;

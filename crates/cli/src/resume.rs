@@ -1,12 +1,13 @@
 //! `nephroid resume`.
 
 use nephroid::{
-    CheckpointError, CheckpointErrorKind, CompileError, Extent, PictureInfo, Resumed, SessionError, Sources,
-    Wanted, load, overwritten_inputs, render_all, resume,
+    CheckpointError, CheckpointErrorKind, CompileError, Extent, Resumed, SessionError, Sources, Wanted, load,
+    overwritten_inputs, render_all, resume,
 };
 
 use crate::args::ResumeArgs;
 use crate::checkpoint;
+use crate::display::picture_info;
 use crate::drive::{Drive, drive, say_replaced};
 use crate::failure::{Failure, Outcome};
 use crate::progress::Progress;
@@ -42,7 +43,7 @@ pub fn run(args: &ResumeArgs) -> Outcome {
         (Some(total), _) => format!("going on with {name}: {done} of {total} passes are done"),
         (None, _) => format!("going on with {name}: {done} passes are done"),
     });
-    let picture = PictureInfo::new(&info.desc, info.hash);
+    let picture = picture_info(&info.desc, info.hash, &args.display)?;
     if !args.output.is_empty() {
         say_replaced(&progress, &outputs);
     }

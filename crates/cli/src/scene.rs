@@ -106,7 +106,9 @@ fn overrides(changes: &Changes) -> Overrides {
         width,
         passes: changes.passes,
         seed: changes.seed,
-        exposure: changes.exposure,
+        exposure: changes.display.exposure,
+        white_balance: changes.display.white_balance,
+        view: changes.display.view,
         max_depth: changes.max_depth,
         noise: changes.noise,
     }

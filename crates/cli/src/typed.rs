@@ -104,7 +104,7 @@ const FOREIGN: &[(&[&str], &str)] = &[
     (&["--silent"], "--quiet, or -q, says nothing but what went wrong"),
     (&["--force", "--overwrite", "-y"], "pictures are replaced without asking; checkpoints never are"),
     (
-        &["--gui", "--view", "--viewer", "--interactive", "--display-server", "--window-preview"],
+        &["--gui", "--viewer", "--interactive", "--display-server", "--window-preview"],
         "there is no viewer: while it renders, the PNG is rewritten every few seconds (--preview-every)",
     ),
     (
@@ -112,10 +112,7 @@ const FOREIGN: &[(&[&str], &str)] = &[
         "there is no animation: render each frame with --set, as --set camera.position=[0,1,5]",
     ),
     (&["--wavefront", "--spectral", "--lambda"], "light is linear RGB here; there is no such choice"),
-    (
-        &["--gamma", "--tonemap", "--tone-mapping"],
-        "--exposure brightens; film.view in the scene chooses the curve",
-    ),
+    (&["--gamma", "--tonemap", "--tone-mapping"], "--exposure brightens; --view chooses the curve"),
     (&["--quick", "--draft", "--preview"], "fewer passes make a draft: --spp 8 --size 320"),
     (
         &["--scene", "-i", "--input", "-b", "--background"],

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::time::Duration;
 
-use nephroid::{Crop, Extent, Film};
+use nephroid::{Crop, Exposure, Extent, Film, ViewTransform, WhiteBalance, blackbody_rgb, srgb8_to_linear};
 
 use crate::span;
 
@@ -54,12 +54,76 @@ pub fn pixel(text: &str) -> Result<[u32; 2], String> {
 ///
 /// # Errors
 /// What is wrong, for people.
-pub fn exposure(text: &str) -> Result<f32, String> {
-    let value: f32 = text.parse().map_err(|_| "an exposure is a number of stops, as 1.5 or -2".to_owned())?;
-    if (-64.0..=64.0).contains(&value) {
-        return Ok(value);
+pub fn exposure(text: &str) -> Result<Exposure, String> {
+    if text == "auto" {
+        return Ok(Exposure::Auto);
+    }
+    let wrong = |_| "an exposure is a number of stops, as 1.5 or -2, or auto".to_owned();
+    let value: f32 = text.parse().map_err(wrong)?;
+    if (Exposure::RANGE[0]..=Exposure::RANGE[1]).contains(&value) {
+        return Ok(Exposure::Ev(value));
     }
     Err("an exposure lies between -64 and 64 EV".to_owned())
+}
+
+/// A group of lights and what its light is multiplied by, channel by channel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GroupFactor {
+    /// The group's name.
+    pub group: String,
+    /// The factor.
+    pub factor: [f32; 3],
+}
+
+/// GROUP=FACTOR or GROUP=FACTOR,COLOUR.
+///
+/// # Errors
+/// What is wrong, for people.
+pub fn light(text: &str) -> Result<GroupFactor, String> {
+    let wrong =
+        || "a light is as sun=0.5, or with a colour lamp=2,1,0.8,0.6 or lamp=2,#ffd0a0 or lamp=2,3000K";
+    let (group, value) = text.split_once('=').filter(|(group, _)| !group.is_empty()).ok_or_else(wrong)?;
+    let (factor, rest) = value.split_once(',').map_or((value, None), |(factor, rest)| (factor, Some(rest)));
+    let number = |text: &str| text.trim().parse::<f32>().ok().filter(|v| (0.0..=1e12).contains(v));
+    let factor = number(factor).ok_or_else(wrong)?;
+    let colour = rest.map_or(Some([1.0; 3]), |rest| colour(rest.trim())).ok_or_else(wrong)?;
+    Ok(GroupFactor { group: group.to_owned(), factor: colour.map(|c| c * factor) })
+}
+
+/// r,g,b (linear), #rrggbb (sRGB) or 3000K.
+fn colour(text: &str) -> Option<[f32; 3]> {
+    if let Some(digits) = text.strip_prefix('#') {
+        let whole = digits.len() == 6 && digits.bytes().all(|b| b.is_ascii_hexdigit());
+        let byte = |i: usize| u8::from_str_radix(digits.get(2 * i..2 * i + 2)?, 16).ok();
+        return whole.then(|| Some([byte(0)?, byte(1)?, byte(2)?].map(srgb8_to_linear)))?;
+    }
+    if let Some(kelvin) = text.strip_suffix(['K', 'k']) {
+        let kelvin = kelvin.trim().parse().ok().filter(|k| (1000.0..=40000.0).contains(k))?;
+        return Some(blackbody_rgb(kelvin));
+    }
+    let number = |text: &str| text.trim().parse::<f32>().ok().filter(|v| (0.0..=1e6).contains(v));
+    let numbers: Vec<f32> = text.split(',').map(number).collect::<Option<_>>()?;
+    numbers.try_into().ok()
+}
+
+/// A white balance.
+///
+/// # Errors
+/// What is wrong, for people.
+pub fn white_balance(text: &str) -> Result<WhiteBalance, String> {
+    WhiteBalance::from_text(text).ok_or_else(|| {
+        "a white balance is a temperature from 1000 to 40000 K, as 3200K, an illuminant, as D50, A or F11, auto or none"
+            .to_owned()
+    })
+}
+
+/// A view.
+///
+/// # Errors
+/// What is wrong, for people.
+pub fn view(text: &str) -> Result<ViewTransform, String> {
+    let names = || ViewTransform::ALL.map(ViewTransform::name).join(", ");
+    ViewTransform::from_name(text).ok_or_else(|| format!("a view is one of {}", names()))
 }
 
 /// A number of threads; 0: one for each core.
@@ -278,9 +342,27 @@ mod tests {
 
     #[test]
     fn exposures() {
-        assert_eq!(exposure("-1.5"), Ok(-1.5));
+        assert_eq!(exposure("-1.5"), Ok(Exposure::Ev(-1.5)));
+        assert_eq!(exposure("auto"), Ok(Exposure::Auto));
+        assert!(view("agx-punch").unwrap_err().contains("agx-punchy"));
+        assert!(white_balance("D66").unwrap_err().contains("D50"));
         for wrong in ["", "x", "nan", "inf", "65"] {
             assert!(exposure(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn lights() {
+        let factor = |text: &str| light(text).map(|light| (light.group, light.factor));
+        assert_eq!(factor("sun=0.5"), Ok(("sun".into(), [0.5; 3])));
+        assert_eq!(factor("a b=2,1,0.5,0"), Ok(("a b".into(), [2.0, 1.0, 0.0])));
+        assert_eq!(factor("lamp=3,#ff0000"), Ok(("lamp".into(), [3.0, 0.0, 0.0])));
+        let [r, _, b] = factor("lamp=1,3000K").unwrap().1;
+        assert!(r > 1.0 && b < 0.5);
+        for wrong in
+            ["sun", "=1", "sun=", "sun=-1", "sun=nan", "sun=1,#ff", "sun=1,2", "sun=1,1,2,x", "s=1,#ééé"]
+        {
+            assert!(light(wrong).is_err(), "{wrong}");
         }
     }
 

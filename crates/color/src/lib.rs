@@ -8,6 +8,7 @@ mod metal_data;
 mod rgb;
 mod spectrum;
 mod view;
+mod white;
 
 pub use ior::{ior_names, named_ior};
 pub use lanes::{LaneBasis, Lanes};
@@ -16,7 +17,8 @@ pub use rgb::{
     LUMINANCE, linear_to_srgb, linear_to_srgb8, luminance, luminance_f64, srgb_to_linear, srgb8_to_linear,
 };
 pub use spectrum::{blackbody_rgb, emission_to_xyz, reflectance_to_rgb, xyz_to_rgb};
-pub use view::ViewTransform;
+pub use view::{Exposure, FALSE_COLOUR_STOPS, ViewTransform, false_colour};
+pub use white::{Adaptation, Illuminant, WhiteBalance, correlated_temperature};
 
 /// A name in lower case without spaces, hyphens and underscores.
 fn plain_name(name: &str) -> String {

@@ -48,14 +48,18 @@ pub(crate) fn channel_means(spectrum: impl Fn(f64) -> f64) -> [f64; 3] {
 /// Planck's law under the CIE 1931 observer. Below about 1 900 K blue would be slightly negative; it is 0 then, and
 /// the luminance still 1. Temperatures are moved into [500, 10⁶] K, NaN to 500 K.
 pub fn blackbody_rgb(kelvin: f32) -> [f32; 3] {
-    let kelvin = if kelvin.is_nan() { 500.0 } else { f64::from(kelvin).clamp(500.0, 1e6) };
-    let xyz = emission_to_xyz(|nm| {
-        // Second radiation constant hc/k = 1.438776877 cm K (CODATA 2018); its factor in front cancels.
-        (nm / 560.0).powi(-5) / (1.438_776_877e7 / (nm * kelvin)).exp_m1()
-    });
-    let rgb = xyz_to_rgb(xyz).map(|v| v.max(0.0));
+    let rgb = xyz_to_rgb(blackbody_xyz(kelvin)).map(|v| v.max(0.0));
     let luminance = crate::luminance_f64(rgb);
     rgb.map(|v| (v / luminance) as f32)
+}
+
+/// CIE XYZ of a black body at `kelvin`, moved as in [`blackbody_rgb`]; its scale means nothing.
+pub(crate) fn blackbody_xyz(kelvin: f32) -> [f64; 3] {
+    let kelvin = if kelvin.is_nan() { 500.0 } else { f64::from(kelvin).clamp(500.0, 1e6) };
+    emission_to_xyz(|nm| {
+        // Second radiation constant hc/k = 1.438776877 cm K (CODATA 2018); its factor in front cancels.
+        (nm / 560.0).powi(-5) / (1.438_776_877e7 / (nm * kelvin)).exp_m1()
+    })
 }
 
 fn weigh(value: impl Fn(usize, f64) -> f64) -> [f64; 3] {

@@ -97,6 +97,38 @@ pub fn encode_exr_rgb(
     encode(width, height, channels.collect(), metadata)
 }
 
+/// The bytes of an EXR file of channels in 32-bit floats, each row by row and with its name; otherwise as [`encode_exr`].
+///
+/// # Errors
+/// As [`encode_exr`], and where a channel has not width × height values.
+pub fn encode_exr_channels(
+    width: usize,
+    height: usize,
+    channels: &[(String, Vec<f32>)],
+    metadata: &[(String, String)],
+) -> Result<Vec<u8>, String> {
+    if let Some((name, values)) = channels.iter().find(|(_, v)| width.checked_mul(height) != Some(v.len())) {
+        return Err(format!("{} values of {name} do not make a picture of {width}x{height}", values.len()));
+    }
+    let channels = channels.iter().map(|(name, v)| channel(name, v.iter().copied(), Precision::F32));
+    encode(width, height, channels.collect(), metadata)
+}
+
+/// Writes channels as EXR (see [`encode_exr_channels`]) by [`write_atomically`].
+///
+/// # Errors
+/// Where the file can't be encoded or written.
+pub fn write_exr_channels(
+    path: &Path,
+    [width, height]: [usize; 2],
+    channels: &[(String, Vec<f32>)],
+    metadata: &[(String, String)],
+) -> Result<(), OutputError> {
+    let bytes = encode_exr_channels(width, height, channels, metadata)
+        .map_err(|why| OutputError::new(path, OutputErrorKind::Encoding(why)))?;
+    write_atomically(path, &bytes)
+}
+
 fn channel(name: &str, values: impl Iterator<Item = f32>, precision: Precision) -> AnyChannel<FlatSamples> {
     let samples = match precision {
         Precision::F32 => FlatSamples::F32(values.collect()),

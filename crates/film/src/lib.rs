@@ -7,6 +7,7 @@
 
 mod compare;
 mod error;
+mod exr_channels;
 mod exr_file;
 mod film;
 mod film_file;
@@ -27,7 +28,10 @@ mod unfinished;
 
 pub use compare::{CompareError, Comparison, compare, difference};
 pub use error::FilmError;
-pub use exr_file::{ExrOptions, Precision, encode_exr, encode_exr_rgb, write_exr};
+pub use exr_channels::ExrChannels;
+pub use exr_file::{
+    ExrOptions, Precision, encode_exr, encode_exr_channels, encode_exr_rgb, write_exr, write_exr_channels,
+};
 pub use film::{Film, FilmNonFinite};
 pub use film_file::FilmHead;
 pub use filter::{Filter, FilterKind, FilterSample};
@@ -35,7 +39,7 @@ pub use flip::flip;
 pub use layer::Layer;
 pub use output::{OutputError, OutputErrorKind, check_writable, write_atomically, write_atomically_with};
 pub use pass_film::{NonFinite, PassFilm, PixelSample};
-pub use png_file::{PngOptions, encode_png, encode_png_bytes, write_png};
+pub use png_file::{encode_png_bytes, write_png};
 pub use read::{ReadError, ReadErrorKind, RgbImage};
 pub use section::{SectionError, SectionReader, SectionWriter};
 pub use unfinished::{discard_leftovers, discard_unfinished};

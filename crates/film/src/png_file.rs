@@ -1,21 +1,8 @@
 use std::path::Path;
 
-use color::ViewTransform;
-
 use crate::output::{OutputError, OutputErrorKind, write_atomically};
 
-/// How radiance is shown in a PNG file.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct PngOptions {
-    /// Radiance is multiplied by 2 to this power first.
-    pub exposure_ev: f32,
-    /// The view transform.
-    pub view: ViewTransform,
-    /// Texts, in this order. Keywords are of 1 to 79 Latin-1 characters.
-    pub metadata: Vec<(String, String)>,
-}
-
-/// Writes linear Rec. 709 pixels, row by row, as PNG (see [`encode_png`]) by [`write_atomically`].
+/// Writes sRGB-encoded pixels, row by row, as PNG (see [`encode_png_bytes`]) by [`write_atomically`].
 ///
 /// # Errors
 /// Where the file can't be encoded or written.
@@ -23,37 +10,19 @@ pub fn write_png(
     path: &Path,
     width: usize,
     height: usize,
-    pixels: &[[f32; 3]],
-    options: &PngOptions,
+    pixels: &[[u8; 3]],
+    metadata: &[(String, String)],
 ) -> Result<(), OutputError> {
-    let bytes = encode_png(width, height, pixels, options)
+    let bytes = encode_png_bytes(width, height, pixels, metadata)
         .map_err(|why| OutputError::new(path, OutputErrorKind::Encoding(why)))?;
     write_atomically(path, &bytes)
 }
 
-/// The bytes of a PNG file of 8 bits a channel: exposed, transformed, rounded to the nearest of 256 steps; marked as
-/// sRGB.
+/// The bytes of a PNG file of sRGB-encoded pixels of 8 bits a channel, row by row; marked as sRGB. `metadata`: texts, in this
+/// order; keywords are of 1 to 79 Latin-1 characters.
 ///
 /// # Errors
 /// An empty picture, another number of pixels than width × height, or a keyword that the format refuses.
-pub fn encode_png(
-    width: usize,
-    height: usize,
-    pixels: &[[f32; 3]],
-    options: &PngOptions,
-) -> Result<Vec<u8>, String> {
-    let shown: Vec<[u8; 3]> = pixels
-        .iter()
-        // The cast saturates.
-        .map(|&p| options.view.apply(p, options.exposure_ev).map(|v| (v * 255.0 + 0.5) as u8))
-        .collect();
-    encode_png_bytes(width, height, &shown, &options.metadata)
-}
-
-/// The bytes of a PNG file of sRGB-encoded pixels, row by row.
-///
-/// # Errors
-/// As [`encode_png`].
 pub fn encode_png_bytes(
     width: usize,
     height: usize,

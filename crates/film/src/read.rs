@@ -32,6 +32,10 @@ pub enum ReadErrorKind {
 }
 
 impl ReadError {
+    pub(crate) fn new(path: &Path, kind: ReadErrorKind) -> Self {
+        Self { path: path.to_owned(), kind }
+    }
+
     /// The file.
     pub fn path(&self) -> &Path {
         &self.path

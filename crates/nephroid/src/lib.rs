@@ -36,10 +36,11 @@
 //! # }
 //! ```
 
-pub use color::{Lanes, ViewTransform};
+pub use color::{Exposure, Lanes, ViewTransform, WhiteBalance, blackbody_rgb, srgb8_to_linear};
+pub use develop::{Display, MixError, Planes};
 pub use film::{
-    CompareError, Comparison, Film, Layer, OutputError, ReadError, RgbImage, check_writable, compare,
-    difference, discard_unfinished, encode_png_bytes, write_atomically,
+    CompareError, Comparison, ExrChannels, Film, Layer, OutputError, ReadError, RgbImage, check_writable,
+    compare, difference, discard_unfinished, encode_png_bytes, write_atomically,
 };
 pub use import::{Format, OutsourceError, load, outsource, strict};
 pub use integrators::{
@@ -49,13 +50,14 @@ pub use integrators::{
 pub use math::Vec3;
 pub use scene::{Light, LightId, Scene, Survey};
 pub use scenefile::{
-    Diagnostic, Loaded, SceneDesc, Severity, Sources, UnknownTopic, desc, describe, light_kind, parse,
-    render_all, shape_kind, to_toml, topics,
+    Diagnostic, Loaded, SceneDesc, Severity, Sources, UnknownTopic, desc, describe, light_kind, nearest,
+    parse, render_all, shape_kind, to_toml, topics,
 };
 pub use session::{
     Checkpoint, CheckpointError, CheckpointErrorKind, CheckpointFile, CheckpointInfo, CompileError, Compiled,
-    Control, Crop, Event, Extent, Job, MergeError, Outcome, Output, OutputKind, Overrides, Phase,
-    PictureError, PictureInfo, Remaining, ReplayError, ReplayKey, Replayed, Resumed, SceneHash, Session,
-    SessionError, Timings, Wanted, Warning, check_outputs, compile, film_bytes, gaps, merge,
-    overwritten_inputs, replay, resume, said, scene_hash, settings, survey, write_checkpoint,
+    Control, Crop, Event, Extent, Job, LutFileError, MergeError, Outcome, Output, OutputKind, Overrides,
+    Phase, PictureError, PictureInfo, Remaining, ReplayError, ReplayKey, Replayed, Resumed, SceneHash,
+    Session, SessionError, Timings, Wanted, Warning, check_outputs, compile, film_bytes, gaps, is_same_file,
+    merge, overwritten_inputs, read_lut, replay, resume, said, scene_hash, settings, survey,
+    write_checkpoint,
 };

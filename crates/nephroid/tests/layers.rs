@@ -21,10 +21,14 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("import", &["math", "color", "mesh", "scenefile"]),
     ("scene", &["math", "par", "sampling", "color", "accel", "mesh", "photometry", "bsdf", "scenefile"]),
     ("film", &["math", "color"]),
+    ("develop", &["color", "film"]),
     ("transport", &["math", "sampling", "color", "scene", "bsdf", "photons"]),
     ("integrators", &["math", "par", "sampling", "color", "scene", "bsdf", "photons", "film", "transport"]),
-    ("session", &["par", "color", "scenefile", "scene", "film", "integrators"]),
-    ("nephroid", &["math", "color", "scenefile", "import", "scene", "film", "integrators", "session"]),
+    ("session", &["par", "color", "scenefile", "scene", "film", "develop", "integrators"]),
+    (
+        "nephroid",
+        &["math", "color", "scenefile", "import", "scene", "film", "develop", "integrators", "session"],
+    ),
     ("cli", &["nephroid"]),
 ];
 
@@ -41,7 +45,8 @@ const WORDS: &[(&str, &[&str], &str)] = &[
 ];
 
 /// Layers that see no clock and no file.
-const PURE: &[&str] = &["math", "sampling", "color", "bsdf", "photons", "transport", "integrators"];
+const PURE: &[&str] =
+    &["math", "sampling", "color", "bsdf", "photons", "transport", "integrators", "develop"];
 const IMPURE: &[&str] = &["std::time", "std::fs", "Instant", "SystemTime", "std::env"];
 
 fn root() -> PathBuf {

@@ -27,6 +27,7 @@ pub use desc::SceneDesc;
 pub use describe::{UnknownTopic, describe, topics};
 pub use diagnostic::{Diagnostic, Label, Severity};
 pub use load::{Loaded, MOST_BYTES, load, parse, reread};
+pub use nearest::nearest;
 pub use replace::replace;
 pub use snippet::{Position, position, render_all};
 pub use source::{FileId, Source, Sourced, Sources, Span};

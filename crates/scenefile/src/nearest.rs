@@ -62,7 +62,7 @@ fn folded(name: &str) -> Vec<char> {
 
 /// The candidate that differs from `name` by the fewest edits, a third of its length at most; the first of equals.
 /// Failing that, one that other programs call `name`.
-pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     const LONGEST: usize = 64;
     let wanted = folded(name.get(..name.len().min(4 * LONGEST)).unwrap_or_default());
     if wanted.is_empty() || wanted.len() > LONGEST {

@@ -358,6 +358,36 @@ impl<'a> Reader<'a> {
         self.take(report, name, read, |preset| preset_number(preset).map(Ior::from))
     }
 
+    /// A number, or one of some words.
+    pub(crate) fn number_or_word(
+        &self,
+        report: &mut Report,
+        name: &str,
+    ) -> Option<Result<f32, &'static str>> {
+        let read = |report: &mut Report, what: &str, key: &Key, node: &Node| match (key.kind, &node.value) {
+            (Kind::NumberOrWord(_, words), Value::Text(text)) if text.parse::<f64>().is_err() => {
+                convert::word(report, what, words, node).map(Err)
+            }
+            (Kind::NumberOrWord(..), Value::Integer(_) | Value::Number(_)) => {
+                read_number(report, what, key, node).map(Ok)
+            }
+            (kind, _) => {
+                convert::wrong_type(report, what, &kind.text(), node);
+                None
+            }
+        };
+        self.take(report, name, read, |preset| match preset {
+            Preset::Word(word) => Some(Err(*word)),
+            _ => None,
+        })
+    }
+
+    /// A file, `None` inside where the key is absent.
+    pub(crate) fn optional_file(&self, report: &mut Report, name: &str) -> Option<Option<Sourced<PathBuf>>> {
+        let text = self.optional_text(report, name)?;
+        Some(text.map(|text| Sourced { value: PathBuf::from(text.value), span: text.span }))
+    }
+
     pub(crate) fn word(&self, report: &mut Report, name: &str) -> Option<&'static str> {
         let read = |report: &mut Report, what: &str, key: &Key, node: &Node| match key.kind {
             Kind::Word(words) => convert::word(report, what, words, node),
@@ -457,6 +487,7 @@ impl<'a> Reader<'a> {
 fn range(key: &Key) -> Range {
     match key.kind {
         Kind::Number(range)
+        | Kind::NumberOrWord(range, _)
         | Kind::Pair(range)
         | Kind::Color(range)
         | Kind::ColorOrTexture(range)

@@ -139,7 +139,7 @@ power = 2
             7 | size = [70000, 10]
               |         ^^^^^
 
-            error[wrong-type]: `exposure` of [film] must be a number from -64 to 64, not the string `1.5`
+            error[wrong-type]: `exposure` of [film] must be a number from -64 to 64 or "auto", not the string `1.5`
              --> box.toml:8:12
               |
             8 | exposure = "1.5"

@@ -50,6 +50,7 @@ fn sample(key: &Key, second: bool) -> String {
         Kind::Integer(min, max) => ((min.max(-40) + 5 + i128::from(second)).min(max)).to_string(),
         Kind::Number(range) if key.name == "falloff_angle" => inside(&Range { max: 20.0, ..range }),
         Kind::Number(range) | Kind::NumberOrTexture(range) => inside(&range),
+        Kind::NumberOrWord(range, _) => inside(&range),
         Kind::Text if key.name == "name" => "\"somebody\"".into(),
         Kind::Text if second => "\"silver\"".into(),
         Kind::Text => "\"copper\"".into(),
@@ -74,12 +75,15 @@ fn sample(key: &Key, second: bool) -> String {
         Kind::Color(_) | Kind::ColorOrTexture(_) => "[0.25, 0.125, 0.375]".into(),
         Kind::Ior(_) => "\"water\"".into(),
         Kind::File(extensions) => {
-            let stem = ["ply", "ies"].into_iter().find(|stem| extensions.contains(stem)).unwrap_or("png");
+            let stem =
+                ["ply", "ies", "cube"].into_iter().find(|stem| extensions.contains(stem)).unwrap_or("png");
             match (stem, second) {
                 ("ply", false) => "\"bunny.ply\"".into(),
                 ("ply", true) => "\"other.ply\"".into(),
                 ("ies", false) => "\"lamp.ies\"".into(),
                 ("ies", true) => "\"other.ies\"".into(),
+                ("cube", false) => "\"look.cube\"".into(),
+                ("cube", true) => "\"other.cube\"".into(),
                 (_, false) => "\"wood.png\"".into(),
                 (_, true) => "\"other.png\"".into(),
             }

@@ -523,8 +523,15 @@ impl Dice {
                 crop: self.coin().then_some([0, 0, 1, 1]),
                 filter: filters[self.below(4) as usize],
                 filter_radius: self.coin().then(|| self.unit() + 0.25),
-                exposure: self.modest(),
-                view: if self.coin() { View::Agx } else { View::Srgb },
+                exposure: if self.coin() { Exposure::Auto } else { Exposure::Ev(self.modest()) },
+                white_balance: match self.below(4) {
+                    0 => WhiteBalance::None,
+                    1 => WhiteBalance::Auto,
+                    2 => WhiteBalance::Kelvin(1000.0 + self.unit() * 30000.0),
+                    _ => WhiteBalance::from_text("F11").unwrap(),
+                },
+                view: View::ALL[self.below(5) as usize],
+                lut: self.coin().then(|| Sourced::from(std::path::PathBuf::from("look s.cube"))),
                 layers: Layers { techniques: self.coin(), lights: self.coin() },
             };
             desc.photon_map = PhotonMap {

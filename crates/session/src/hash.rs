@@ -59,7 +59,13 @@ fn with_plain_settings(desc: SceneDesc) -> SceneDesc {
     SceneDesc {
         base: PathBuf::new(),
         render: Render { passes: render.passes, seed: render.seed, noise: render.noise, ..desc.render },
-        film: Film { exposure: film.exposure, view: film.view, ..desc.film },
+        film: Film {
+            exposure: film.exposure,
+            white_balance: film.white_balance,
+            view: film.view,
+            lut: film.lut,
+            ..desc.film
+        },
         ..desc
     }
 }
@@ -231,7 +237,9 @@ mod tests {
         same.render.passes += 1;
         same.render.seed += 1;
         same.render.noise = Some(0.01);
-        same.film.exposure += 1.0;
+        same.film.exposure = color::Exposure::Ev(3.0);
+        same.film.view = color::ViewTransform::FalseColour;
+        same.film.lut = Some(PathBuf::from("a.cube").into());
         assert_eq!(scene_hash(&same).unwrap(), hash);
 
         let mut brighter = desc.clone();

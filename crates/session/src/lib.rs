@@ -35,7 +35,10 @@ pub use compile::{CompileError, Compiled, compile, survey};
 pub use event::{Control, Event, Warning};
 pub use hash::{SceneHash, scene_hash};
 pub use job::{Job, SessionError, film_bytes};
-pub use output::{Output, OutputKind, PictureError, PictureInfo, check_outputs, overwritten_inputs};
+pub use output::{
+    LutFileError, Output, OutputKind, PictureError, PictureInfo, check_outputs, is_same_file,
+    overwritten_inputs, read_lut,
+};
 pub use overrides::{Crop, Overrides};
 pub use pace::Remaining;
 pub use phase::{Phase, Timings};

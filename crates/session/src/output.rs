@@ -1,10 +1,11 @@
 use std::ffi::OsString;
 use std::fmt;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use color::ViewTransform;
-use film::{ExrOptions, Film, PngOptions};
-use scenefile::desc::{SceneDesc, View};
+use develop::{Display, Lut, Planes, Settled};
+use film::{ExrOptions, Film};
+use scenefile::desc::SceneDesc;
 
 use crate::SceneHash;
 
@@ -87,17 +88,15 @@ impl From<film::OutputError> for PictureError {
 /// What pictures are written with, besides pixels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PictureInfo {
-    /// Exposure of 8-bit pictures: radiance is multiplied by 2 to this power.
-    pub exposure_ev: f32,
-    /// Display transform of 8-bit pictures.
-    pub view: ViewTransform,
+    /// How 8-bit pictures show radiance.
+    pub display: Display,
     /// What files say of themselves: names and values, in this order. The number of passes is added when a film is
     /// written.
     pub metadata: Vec<(String, String)>,
 }
 
 impl PictureInfo {
-    /// Of a scene whose hash is known.
+    /// Of a scene whose hash is known; without its look-up table, which [`read_lut`] reads.
     pub fn new(desc: &SceneDesc, hash: SceneHash) -> Self {
         let metadata = [
             ("software", concat!("nephroid ", env!("CARGO_PKG_VERSION")).to_owned()),
@@ -106,18 +105,33 @@ impl PictureInfo {
             ("seed", desc.render.seed.to_string()),
         ];
         Self {
-            exposure_ev: desc.film.exposure,
-            view: match desc.film.view {
-                View::Agx => ViewTransform::Agx,
-                View::Srgb => ViewTransform::Srgb,
+            display: Display {
+                exposure: desc.film.exposure,
+                white_balance: desc.film.white_balance,
+                view: desc.film.view,
+                lut: None,
             },
             metadata: metadata.map(|(name, value)| (name.to_owned(), value)).to_vec(),
         }
     }
 
-    fn metadata_of(&self, film: &Film) -> Vec<(String, String)> {
+    /// With the look-up table that a scene names, if any.
+    ///
+    /// # Errors
+    /// Where its file cannot be read or is none.
+    pub fn with_lut_of(mut self, desc: &SceneDesc) -> Result<Self, LutFileError> {
+        self.display.lut = desc.film.lut.as_ref().map(|file| read_lut(&desc.resolve(file))).transpose()?;
+        Ok(self)
+    }
+
+    /// How a film will be shown.
+    pub fn settle(&self, film: &Film) -> Settled {
+        self.display.settle(&Planes::of(film))
+    }
+
+    fn metadata_of(&self, film: &Film, settled: &Settled) -> Vec<(String, String)> {
         let passes = ("passes".to_owned(), film.passes().to_string());
-        self.metadata.iter().cloned().chain([passes]).collect()
+        self.metadata.iter().cloned().chain([passes]).chain(settled.metadata()).collect()
     }
 }
 
@@ -152,18 +166,75 @@ impl Output {
     /// # Errors
     /// Where the file cannot be written.
     pub fn write(&self, film: &Film, info: &PictureInfo) -> Result<(), PictureError> {
-        let metadata = info.metadata_of(film);
+        let planes = Planes::of(film);
+        let settled = info.display.settle(&planes);
+        let metadata = info.metadata_of(film, &settled);
         match self.kind {
             OutputKind::Exr => {
                 film::write_exr(&self.path, film, &ExrOptions { metadata, ..Default::default() })?
             }
             OutputKind::Png => {
-                let options = PngOptions { exposure_ev: info.exposure_ev, view: info.view, metadata };
-                film::write_png(&self.path, film.width(), film.height(), &film.beauty(), &options)?;
+                film::write_png(&self.path, film.width(), film.height(), &settled.show(&planes), &metadata)?;
             }
         }
         Ok(())
     }
+}
+
+impl Output {
+    /// Writes planes that were read and perhaps mixed, otherwise as [`write`](Self::write).
+    ///
+    /// # Errors
+    /// Where the file cannot be written.
+    pub fn write_planes(&self, planes: &Planes, info: &PictureInfo) -> Result<(), PictureError> {
+        let settled = info.display.settle(planes);
+        let metadata: Vec<_> = info.metadata.iter().cloned().chain(settled.metadata()).collect();
+        let (width, height) = (planes.width, planes.height);
+        match self.kind {
+            OutputKind::Exr => {
+                film::write_exr_channels(&self.path, [width, height], &planes.channels(), &metadata)?
+            }
+            OutputKind::Png => film::write_png(&self.path, width, height, &settled.show(planes), &metadata)?,
+        }
+        Ok(())
+    }
+}
+
+/// Whether two names are of one file in existing folders.
+pub fn is_same_file(a: &Path, b: &Path) -> bool {
+    identity(a) == identity(b)
+}
+
+/// Why a file is no look-up table.
+#[derive(Debug)]
+pub struct LutFileError {
+    path: PathBuf,
+    reason: String,
+}
+
+impl fmt::Display for LutFileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} is no look-up table (.cube): {}", self.path.display(), self.reason)
+    }
+}
+
+impl std::error::Error for LutFileError {}
+
+/// Greatest file of a look-up table that is read, in bytes: a table of 256³ colours with room to spare.
+const MOST_LUT: u64 = 1 << 30;
+
+/// Reads a .cube file.
+///
+/// # Errors
+/// Where it cannot be read or is none.
+pub fn read_lut(path: &Path) -> Result<Arc<Lut>, LutFileError> {
+    let error = |reason: String| LutFileError { path: path.to_owned(), reason };
+    let size = std::fs::metadata(path).map_err(|e| error(e.to_string()))?.len();
+    if size > MOST_LUT {
+        return Err(error("it is larger than 1 GiB".into()));
+    }
+    let text = std::fs::read_to_string(path).map_err(|e| error(e.to_string()))?;
+    Lut::parse(&text).map(Arc::new).map_err(|e| error(e.to_string()))
 }
 
 /// The outputs of paths, each of which could be written now. Nothing is left behind.
@@ -265,7 +336,9 @@ mod tests {
                 assert_eq!(image.pixels(), [[0.25, 0.5, 1.0]; 2]);
                 let bytes = std::fs::read(&path).unwrap();
                 let text = String::from_utf8_lossy(&bytes);
-                for said in ["sceneHash", &SceneHash(5).to_string(), "passes", "seed", "nephroid 0."] {
+                for said in
+                    ["sceneHash", &SceneHash(5).to_string(), "passes", "seed", "nephroid 0.", "(automatic)"]
+                {
                     assert!(text.contains(said), "{said}");
                 }
             }

@@ -1,3 +1,4 @@
+use color::{Exposure, ViewTransform, WhiteBalance};
 use scenefile::SceneDesc;
 use scenefile::desc::IntegratorKind;
 
@@ -48,7 +49,11 @@ pub struct Overrides {
     /// Seed of every random number.
     pub seed: Option<u64>,
     /// Exposure of 8-bit pictures in EV.
-    pub exposure: Option<f32>,
+    pub exposure: Option<Exposure>,
+    /// White balance of 8-bit pictures.
+    pub white_balance: Option<WhiteBalance>,
+    /// View of 8-bit pictures.
+    pub view: Option<ViewTransform>,
     /// Scattering events on a path, at most.
     pub max_depth: Option<u32>,
     /// Grain below which no more passes are needed.
@@ -73,6 +78,8 @@ impl Overrides {
         });
         film.crop = self.crop.or(kept).map(|crop| crop.of(film.size));
         film.exposure = self.exposure.unwrap_or(film.exposure);
+        film.white_balance = self.white_balance.unwrap_or(film.white_balance);
+        film.view = self.view.unwrap_or(film.view);
         let render = &mut desc.render;
         render.integrator = self.integrator.unwrap_or(render.integrator);
         render.seed = self.seed.unwrap_or(render.seed);
@@ -102,14 +109,14 @@ mod tests {
             width: Some(101),
             passes: Some(3),
             seed: Some(9),
-            exposure: Some(-1.5),
+            exposure: Some(Exposure::Ev(-1.5)),
             max_depth: Some(2),
             noise: Some(0.02),
             ..Overrides::default()
         };
         overrides.apply(&mut desc);
         assert_eq!(desc.film.size, [101, 57], "101 · 360 / 640 = 56.8");
-        assert_eq!(desc.film.exposure, -1.5);
+        assert_eq!(desc.film.exposure, Exposure::Ev(-1.5));
         assert_eq!(desc.render.integrator, IntegratorKind::Path);
         assert_eq!((desc.render.passes, desc.render.seed, desc.render.max_depth), (3, 9, Some(2)));
         assert_eq!(desc.render.noise, Some(0.02));

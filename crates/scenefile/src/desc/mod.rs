@@ -136,15 +136,7 @@ pub enum FilterKind {
     BlackmanHarris,
 }
 
-/// The display transform of 8-bit output.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum View {
-    /// AgX, filmic.
-    #[default]
-    Agx,
-    /// The plain sRGB curve, clipped.
-    Srgb,
-}
+pub use color::{Exposure, ViewTransform as View, WhiteBalance};
 
 /// The picture: `[film]`.
 #[derive(Clone, Debug, PartialEq)]
@@ -158,10 +150,14 @@ pub struct Film {
     pub filter: FilterKind,
     /// The filter's radius in pixels; `None` is the filter's own default.
     pub filter_radius: Option<f32>,
-    /// Exposure of 8-bit output in EV: radiance is multiplied by 2^exposure.
-    pub exposure: f32,
+    /// Exposure of 8-bit output.
+    pub exposure: Exposure,
+    /// What is white in 8-bit output.
+    pub white_balance: WhiteBalance,
     /// The display transform of 8-bit output.
     pub view: View,
+    /// A look-up table (.cube) for the display colours of 8-bit output.
+    pub lut: Option<Sourced<PathBuf>>,
     /// Layers besides those that every picture has.
     pub layers: Layers,
 }
@@ -182,8 +178,10 @@ impl Default for Film {
             crop: None,
             filter: FilterKind::BlackmanHarris,
             filter_radius: None,
-            exposure: 0.0,
-            view: View::Agx,
+            exposure: Exposure::Auto,
+            white_balance: WhiteBalance::None,
+            view: View::default(),
+            lut: None,
             layers: Layers::default(),
         }
     }

@@ -1,8 +1,8 @@
 //! `[render]`, `[film]`, `[camera]`, `[photon_map]`, `[sppm]`, `[vcm]`.
 
 use crate::desc::{
-    Camera, CameraKind, DirectLight, Film, FilterKind, FovAxis, IntegratorKind, Layers, PhotonFilter,
-    PhotonMap, Render, SceneDesc, Sppm, Vcm, VcmTechniques, View,
+    Camera, CameraKind, DirectLight, Exposure, Film, FilterKind, FovAxis, IntegratorKind, Layers,
+    PhotonFilter, PhotonMap, Render, SceneDesc, Sppm, Vcm, VcmTechniques, View, WhiteBalance,
 };
 use crate::diagnostic::{Diagnostic, Report};
 use crate::reader::Reader;
@@ -41,12 +41,18 @@ pub(super) fn film(report: &mut Report, r: &Reader<'_>, desc: &mut SceneDesc) {
         _ => FilterKind::BlackmanHarris,
     });
     let filter_radius = r.optional_number(report, "filter_radius");
-    let exposure = r.number(report, "exposure");
+    let exposure =
+        r.number_or_word(report, "exposure").map(|value| value.map_or(Exposure::Auto, Exposure::Ev));
+    let white_balance = r.number_or_word(report, "white_balance").and_then(|value| match value {
+        Ok(kelvin) => Some(WhiteBalance::Kelvin(kelvin)),
+        Err(word) => WhiteBalance::from_text(word),
+    });
     let layers = r.words(report, "layers").map(|words| {
         let words = words.unwrap_or_default();
         Layers { techniques: words.contains(&"techniques"), lights: words.contains(&"lights") }
     });
-    let view = r.word(report, "view").map(|word| if word == "srgb" { View::Srgb } else { View::Agx });
+    let view = r.word(report, "view").and_then(View::from_name);
+    let lut = r.optional_file(report, "lut");
     if let (Some([width, height]), Some(entry)) = (size, r.given("size"))
         && width as u64 * height as u64 > MOST_PIXELS
     {
@@ -60,10 +66,12 @@ pub(super) fn film(report: &mut Report, r: &Reader<'_>, desc: &mut SceneDesc) {
         let help = format!("[x0, y0, x1, y1]: 0 ≤ x0 < x1 ≤ {width}, 0 ≤ y0 < y1 ≤ {height}");
         report.push(Diagnostic::error("out-of-range", message).at(entry.node.span).help(help));
     }
-    if let (Some(size), Some(filter), Some(filter_radius), Some(exposure), Some(view), Some(layers)) =
-        (size, filter, filter_radius, exposure, view, layers)
+    if let (Some(size), Some(crop), Some(filter), Some(filter_radius), Some(layers)) =
+        (size, crop, filter, filter_radius, layers)
+        && let (Some(exposure), Some(white_balance), Some(view), Some(lut)) =
+            (exposure, white_balance, view, lut)
     {
-        desc.film = Film { size, crop: crop.flatten(), filter, filter_radius, exposure, view, layers };
+        desc.film = Film { size, crop, filter, filter_radius, exposure, white_balance, view, lut, layers };
     }
 }
 

@@ -89,6 +89,8 @@ pub enum Kind {
     Number(Range),
     /// Any string.
     Text,
+    /// A number, or one of these words.
+    NumberOrWord(Range, &'static [Word]),
     /// One of these words.
     Word(&'static [Word]),
     /// Some of these words, in any order.
@@ -317,6 +319,7 @@ impl Kind {
                 (min, max) => format!("an integer from {min} to {max}"),
             },
             Self::Number(range) => with("a number", range),
+            Self::NumberOrWord(range, list) => format!("{} or {}", with("a number", range), words(list)),
             Self::Text => "a string".into(),
             Self::Word(list) => words(list),
             Self::Words(list) => format!("a list of {}", words(list)),

@@ -57,8 +57,29 @@ const FILTERS: &[Word] = &[
     word("blackman-harris", "Blackman-Harris window."),
 ];
 
-const VIEWS: &[Word] =
-    &[word("agx", "AgX: highlights roll off as on film."), word("srgb", "The plain sRGB curve, clipped.")];
+const VIEWS: &[Word] = &[
+    word("agx", "AgX: highlights roll off as on film."),
+    word("agx-punchy", "AgX with more contrast and saturation."),
+    word("aces-like", "The shape of ACES' reference rendering: contrasty, bright colours stay longer."),
+    word("srgb", "The plain sRGB curve, clipped."),
+    word("false-colour", "Luminance as a colour of a scale in cd/m^2, which is drawn into the picture."),
+    word("false-color", "The same."),
+];
+
+const EXPOSURES: &[Word] = &[word("auto", "As the picture itself asks for.")];
+
+/// none, auto and the names of illuminants.
+const BALANCES: [Word; 2 + color::Illuminant::ALL.len()] = {
+    let mut words =
+        [word("none", "Colours stay as they are: D65 is white."); 2 + color::Illuminant::ALL.len()];
+    words[1] = word("auto", "The light that the picture shows is taken away in part.");
+    let mut i = 0;
+    while i < color::Illuminant::ALL.len() {
+        words[2 + i] = word(color::Illuminant::ALL[i].name(), "A standard illuminant of the CIE.");
+        i += 1;
+    }
+    words
+};
 
 const LAYERS: &[Word] = &[
     word(
@@ -100,10 +121,17 @@ pub const FILM: Section = Section {
         ),
         key(
             "exposure",
-            Number(closed(-64.0, 64.0)),
+            Kind::NumberOrWord(closed(-64.0, 64.0), EXPOSURES),
             "EV",
-            Preset::Number(0.0),
+            Preset::Word("auto"),
             "PNG only: radiance is multiplied by 2^exposure.",
+        ),
+        key(
+            "white_balance",
+            Kind::NumberOrWord(closed(1000.0, 40000.0), &BALANCES),
+            "K",
+            Preset::Word("none"),
+            "PNG only: light of this temperature or of this illuminant is shown as white.",
         ),
         key(
             "view",
@@ -111,6 +139,13 @@ pub const FILM: Section = Section {
             "",
             Preset::Word("agx"),
             "PNG only: how radiance becomes display colour.",
+        ),
+        key(
+            "lut",
+            Kind::File(&["cube"]),
+            "",
+            Absent("none"),
+            "PNG only: a look-up table of one or three dimensions for display colours, applied after the view.",
         ),
         key(
             "layers",

@@ -6,9 +6,9 @@ mod value;
 use std::fmt::Write as _;
 
 use crate::desc::{
-    Camera, CameraKind, DirectLight, Emission, EmissionAmount, FilterKind, FovAxis, Instance, Light,
-    LightKind, MaterialRef, Normals, Object, PhotonFilter, PointAmount, ProfileAmount, SceneDesc, Shape,
-    SkyMapping, SunSky, TEAPOT_PARTS, TeapotPart, TransformStep, VcmTechniques, View,
+    Camera, CameraKind, DirectLight, Emission, EmissionAmount, Exposure, FilterKind, FovAxis, Instance,
+    Light, LightKind, MaterialRef, Normals, Object, PhotonFilter, PointAmount, ProfileAmount, SceneDesc,
+    Shape, SkyMapping, SunSky, TEAPOT_PARTS, TeapotPart, TransformStep, VcmTechniques, WhiteBalance,
 };
 use crate::spec::{self, Section};
 use material::{material_fields, texture_fields};
@@ -105,14 +105,20 @@ fn film(desc: &SceneDesc) -> Fields {
         },
     );
     f.optional_number("filter_radius", film.filter_radius);
-    f.number("exposure", film.exposure);
-    f.word(
-        "view",
-        match film.view {
-            View::Agx => "agx",
-            View::Srgb => "srgb",
-        },
-    );
+    match film.exposure {
+        Exposure::Auto => f.word("exposure", "auto"),
+        Exposure::Ev(ev) => f.number("exposure", ev),
+    }
+    match film.white_balance {
+        WhiteBalance::None => f.word("white_balance", "none"),
+        WhiteBalance::Auto => f.word("white_balance", "auto"),
+        WhiteBalance::Kelvin(kelvin) => f.number("white_balance", kelvin),
+        WhiteBalance::Illuminant(illuminant) => f.word("white_balance", illuminant.name()),
+    }
+    f.word("view", film.view.name());
+    if let Some(lut) = &film.lut {
+        f.text("lut", &lut.to_string_lossy());
+    }
     let layers = [("techniques", film.layers.techniques), ("lights", film.layers.lights)];
     let wanted: Vec<_> = layers.into_iter().filter(|(_, wanted)| *wanted).collect();
     if !wanted.is_empty() {

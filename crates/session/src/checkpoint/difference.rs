@@ -88,7 +88,7 @@ mod tests {
         a.objects.push(ball(3.0));
         let mut b = a.clone();
         b.render.passes = 99;
-        b.film.exposure = 2.0;
+        b.film.exposure = color::Exposure::Ev(2.0);
         b.base = "elsewhere".into();
         assert_eq!(differences(&a, &b), Vec::<String>::new());
         b.render.max_depth = Some(4);
