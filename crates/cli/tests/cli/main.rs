@@ -1,6 +1,7 @@
 //! The command line as people and scripts meet it.
 #![allow(clippy::unwrap_used, reason = "helpers of tests, too")]
 
+mod develop;
 mod harness;
 mod imports;
 mod interrupt;
