@@ -14,12 +14,12 @@ fn a_camera_path_is_told_vertex_by_vertex() {
                       at (0.0367687, 0, 1.13188), 3.03768 away, footprint 0.178148
                       normal (0, 1, 0)
                       throughput 1 1 1
-            + direct    0.356871 0.356871 0.356871 (direct, from lamp)
+            + direct    0.281469 0.281469 0.281469 (direct, from lamp)
           end         left the scene
-          direct      0.356871 0.356871 0.356871
+          direct      0.281469 0.281469 0.281469
           caustic     0 0 0
           indirect    0 0 0
-          beauty      0.356871 0.356871 0.356871, times the filter's weight 1
+          beauty      0.281469 0.281469 0.281469, times the filter's weight 1
     "#]]
     .assert_eq(&ran.out);
     assert_eq!(ran.err, "");
