@@ -146,7 +146,7 @@ pub struct DisplayArgs {
     pub white_balance: Option<WhiteBalance>,
 
     /// How PNG pictures turn radiance into display colours: agx, agx-punchy, aces-like, srgb or false-colour [default:
-    /// the scene's, or agx].
+    /// the scene's, or agx-punchy].
     #[arg(long, value_name = "VIEW", value_parser = values::view)]
     pub view: Option<ViewTransform>,
 

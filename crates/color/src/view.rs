@@ -5,9 +5,10 @@ use crate::linear_to_srgb;
 pub enum ViewTransform {
     /// Filmic: bright colours lose saturation instead of clipping. AgX (Troy Sobotka 2022, the "base" look), 16.5
     /// stops wide; a radiance of 0.18 is shown as one half.
-    #[default]
     Agx,
-    /// AgX with the "punchy" look of its author: power 1.35, then saturation 1.4.
+    /// AgX with the "punchy" look of its author: power 1.35, then saturation 1.4. The default: in plain AgX gold and
+    /// pools look grey.
+    #[default]
     AgxPunchy,
     /// The shape of ACES' reference rendering, by Stephen Hill's fit (2016), scaled so that 0.18 is shown as 0.18.
     AcesLike,

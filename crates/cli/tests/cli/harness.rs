@@ -192,7 +192,7 @@ impl Drop for Place {
     }
 }
 
-/// Durations and sizes that depend on the machine, and counts of photons, as `_`.
+/// Durations and sizes that depend on the machine, counts of photons, and what an automatic exposure found, as `_`.
 pub fn masked(text: &str) -> String {
     let mut out = String::new();
     for line in text.split_inclusive('\n') {
@@ -205,7 +205,8 @@ pub fn masked(text: &str) -> String {
             .iter()
             .enumerate()
             .map(|(i, w)| {
-                let named = i > 0 && ["radius", "about"].contains(&words[i - 1]);
+                let found = i > 0 && words[i - 1] == "exposure" && line.contains("EV, automatic");
+                let named = found || i > 0 && ["radius", "about"].contains(&words[i - 1]);
                 if named || number(w) && words.get(i + 1).is_some_and(|w| unit(w)) { "_" } else { w }
             })
             .collect();

@@ -16,7 +16,7 @@ fn the_default_output_is_named_after_the_scene() {
         pass 1/2 (50 %), _ s elapsed, _ s left
         pass 2/2 (100 %), grain _ %, _ s elapsed
         wrote box.png (16x12, 2 passes)
-        exposure 1.1 EV, automatic
+        exposure _ EV, automatic
         grain _ %: a first draft; clean (1.0 %) after about _ passes
     "#]]
     .assert_eq(&masked(&ran.err));

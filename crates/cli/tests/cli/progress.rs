@@ -50,7 +50,7 @@ fn noise_ends_a_render_with_the_same_pass_however_it_was_cut() {
         pass 1/8 (12 %), _ s elapsed, _ s left
         pass 8/8 (100 %), grain _ % (to _ %), _ s elapsed
         wrote box.png (16x12, 8 passes)
-        exposure 1.2 EV, automatic
+        exposure _ EV, automatic
         all passes are done before the grain is as fine as was asked for (0.10 %)
         grain _ %: a first draft; clean (1.0 %) after about _ passes
     "#]]

@@ -14,7 +14,7 @@ fn info_says_what_is_in_a_scene() {
     let said: String = hidden.map(|l| format!("{l}\n")).collect();
     expect![[r#"
         scene       box.toml
-        picture     16x12, blackman-harris filter, automatic exposure, view agx
+        picture     16x12, blackman-harris filter, automatic exposure, view agx-punchy
         integrator  auto, 2 passes, seed 0, depth 4
         objects     4, 2 triangles
         materials   4, 0 textures

@@ -55,7 +55,7 @@ fn what_is_said_of_a_checkpoint() {
         pass 2/2 (100 %), grain _ %, _ s elapsed
         saved a.neph (2 passes, _ KiB)
         wrote box.png (16x12, 2 passes)
-        exposure 1.2 EV, automatic
+        exposure _ EV, automatic
         grain _ %: a first draft; clean (1.0 %) after about _ passes
     "#]]
     .assert_eq(&masked(&ran.err));
@@ -75,7 +75,7 @@ fn what_is_said_of_a_checkpoint() {
         out.lines().filter(|l| !l.starts_with("scene") && !l.starts_with("to write")).collect();
     expect![[r#"
         checkpoint  a.neph, _ KiB, undamaged
-        picture     16x12, blackman-harris filter, automatic exposure, view agx
+        picture     16x12, blackman-harris filter, automatic exposure, view agx-punchy
         integrator  path, 2 passes, seed 0, depth 4
         holds       4 passes: passes 0..4
         asked for   passes 0..4

@@ -137,7 +137,7 @@ pub const FILM: Section = Section {
             "view",
             Kind::Word(VIEWS),
             "",
-            Preset::Word("agx"),
+            Preset::Word("agx-punchy"),
             "PNG only: how radiance becomes display colour.",
         ),
         key(
