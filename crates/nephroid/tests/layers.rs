@@ -14,7 +14,7 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("testkit", &["math", "sampling"]),
     ("accel", &["math", "par"]),
     ("photons", &["math", "par", "color"]),
-    ("mesh", &["math"]),
+    ("mesh", &["math", "sampling"]),
     ("photometry", &["math"]),
     ("bsdf", &["math", "sampling", "color"]),
     ("scenefile", &["color"]),
