@@ -48,6 +48,8 @@ fn sample(key: &Key, second: bool) -> String {
     match key.kind {
         Kind::Bool => (key.preset != Preset::Bool(true)).to_string(),
         Kind::Integer(min, max) => ((min.max(-40) + 5 + i128::from(second)).min(max)).to_string(),
+        // Less than half a side of the box.
+        Kind::Number(range) if key.name == "radius" => inside(&Range { max: 0.625, ..range }),
         Kind::Number(range) if key.name == "falloff_angle" => inside(&Range { max: 20.0, ..range }),
         Kind::Number(range) | Kind::NumberOrTexture(range) => inside(&range),
         Kind::NumberOrWord(range, _) => inside(&range),

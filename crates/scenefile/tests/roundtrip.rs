@@ -261,7 +261,7 @@ impl Dice {
         let (center, radius) = (self.triple(), self.positive());
         let (axis, segments) = (self.direction(), 3 + self.below(200) as u32);
         let tube_segments = 3 + self.below(200) as u32;
-        match self.below(17) {
+        match self.below(22) {
             0 => Shape::Sphere { center, radius },
             1 => Shape::Disk { center, normal: axis, radius },
             2 => Shape::Quad { origin: center, edge_u: axis, edge_v: [30.0, self.modest(), 0.0] },
@@ -313,8 +313,50 @@ impl Dice {
                 radius,
                 height: self.positive(),
                 inward: self.coin(),
+                closed: self.coin(),
                 segments,
             },
+            16 => Shape::Cone {
+                base: center,
+                axis,
+                radius,
+                top_radius: self.unit(),
+                height: self.positive(),
+                closed: self.coin(),
+                segments,
+            },
+            17 => Shape::Capsule { base: center, axis, radius, height: self.positive(), segments },
+            18 => Shape::RoundedBox {
+                min: [-1.0, -2.0, -3.5],
+                max: [1.0, 2.0, 3.0 + self.unit()],
+                radius: 0.25 + self.unit() * 0.5,
+                steps: 1 + self.below(64) as u32,
+            },
+            19 => Shape::RoundBrilliant(Brilliant {
+                center,
+                axis,
+                diameter: radius,
+                table: 0.25 + 0.5 * self.unit(),
+                crown_degrees: 10.0 + 30.0 * self.unit(),
+                pavilion_degrees: 10.0 + 30.0 * self.unit(),
+                girdle: 0.01 + 0.1 * self.unit(),
+                star_length: 0.25 + 0.5 * self.unit(),
+                lower_half_length: 0.25 + 0.5 * self.unit(),
+                culet: 0.5 * self.unit(),
+            }),
+            20 => Shape::WaterSurface(WaterSurface {
+                center,
+                size: [radius, self.positive()],
+                depth: self.coin().then(|| self.positive()),
+                resolution: 8 + self.below(4089) as u32,
+                wind_speed: 1.0 + self.unit(),
+                wind_degrees: self.number(),
+                fetch: self.positive(),
+                wave_height: self.coin().then(|| self.unit()),
+                waves: 1 + self.below(256) as u32,
+                seed: self.next() as u32,
+                time: self.number(),
+            }),
             10 => Shape::Torus {
                 center,
                 axis,

@@ -61,3 +61,41 @@ fn sphere_furnace_by_direct_lookup_of_the_k_nearest() {
         assert_mean(&format!("{knn} neighbours"), &m, 5.0, 0.0);
     }
 }
+
+/// Clear solids of any index take nothing and add nothing where the same light comes from everywhere.
+#[test]
+fn clear_gems_and_water_are_not_seen_in_a_white_furnace() {
+    use nephroid::desc::{Brilliant, Material, Object, Shape, WaterSurface};
+    let gem = Shape::RoundBrilliant(Brilliant {
+        center: [0.0; 3],
+        axis: [0.3, 1.0, 0.2],
+        diameter: 1.4,
+        table: 0.53,
+        crown_degrees: 34.5,
+        pavilion_degrees: 40.75,
+        girdle: 0.02,
+        star_length: 0.5,
+        lower_half_length: 0.75,
+        culet: 0.0,
+    });
+    let water = Shape::WaterSurface(WaterSurface {
+        center: [0.0, 0.2, 0.0],
+        size: [1.2, 1.2],
+        depth: Some(0.5),
+        resolution: 64,
+        wind_speed: 3.0,
+        wind_degrees: 30.0,
+        fetch: 50.0,
+        wave_height: Some(0.02),
+        waves: 64,
+        seed: 3,
+        time: 0.0,
+    });
+    for (name, shape) in [("gem", gem), ("water", water)] {
+        for ior in [1.0, 1.5] {
+            let objects = vec![furnace(4.0, 0.5), Object::new(shape.clone(), Material::dielectric(ior))];
+            let desc = scene_of(look([0.0, 0.6, 2.0], [0.0; 3], 40.0), 12, objects);
+            assert_mean(&format!("{name}, index {ior}"), &brightness(&desc, PATH, 16, 32), 2.0, 2e-4);
+        }
+    }
+}

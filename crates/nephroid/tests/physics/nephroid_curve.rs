@@ -68,6 +68,7 @@ fn cylinder(curve: Curve) -> SceneDesc {
         radius: 1.0,
         height,
         inward: true,
+        closed: false,
         segments: 720,
     };
     let objects = vec![

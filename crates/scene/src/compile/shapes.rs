@@ -99,11 +99,27 @@ fn solid(desc: &SceneDesc, shape: &ShapeDesc) -> Result<Solid, MeshError> {
             let mesh = shapes::lathe(&outline, *segments)?;
             if *smooth { mesh } else { TriangleMesh { normals: Vec::new(), ..mesh } }
         }
-        ShapeDesc::Cylinder { base, axis, radius, height, inward, segments } => {
-            let tube = shapes::cylinder(*radius, *height, *segments);
+        ShapeDesc::Cylinder { base, axis, radius, height, inward, closed, segments } => {
+            let tube = if *closed {
+                shapes::solid_cylinder(*radius, *height, *segments)
+            } else {
+                shapes::cylinder(*radius, *height, *segments)
+            };
             let tube = if *inward { tube.flipped() } else { tube };
             tube.transformed(&upright(v(*base), v(*axis)))
         }
+        ShapeDesc::Cone { base, axis, radius, top_radius, height, closed, segments } => {
+            let make = if *closed { shapes::frustum } else { shapes::open_frustum };
+            make(*radius, *top_radius, *height, *segments).transformed(&upright(v(*base), v(*axis)))
+        }
+        ShapeDesc::Capsule { base, axis, radius, height, segments } => {
+            shapes::capsule(*radius, *height, *segments).transformed(&upright(v(*base), v(*axis)))
+        }
+        ShapeDesc::RoundedBox { min, max, radius, steps } => {
+            shapes::rounded_box(v(*min), v(*max), *radius, *steps)
+        }
+        ShapeDesc::RoundBrilliant(gem) => brilliant(gem)?,
+        ShapeDesc::WaterSurface(water) => water_surface(water)?,
         ShapeDesc::Torus { center, axis, major_radius, minor_radius, segments, tube_segments } => {
             shapes::torus(*major_radius, *minor_radius, *segments, *tube_segments)
                 .transformed(&upright(v(*center), v(*axis)))
@@ -124,6 +140,36 @@ fn solid(desc: &SceneDesc, shape: &ShapeDesc) -> Result<Solid, MeshError> {
         ShapeDesc::Wine { segments } => shapes::wine(*segments),
     };
     Ok(Solid::Mesh(mesh))
+}
+
+fn brilliant(gem: &desc::Brilliant) -> Result<TriangleMesh, MeshError> {
+    let mesh = shapes::round_brilliant(&shapes::Brilliant {
+        diameter: gem.diameter,
+        table: gem.table,
+        crown_angle: gem.crown_degrees.to_radians(),
+        pavilion_angle: gem.pavilion_degrees.to_radians(),
+        girdle: gem.girdle,
+        star_length: gem.star_length,
+        lower_half_length: gem.lower_half_length,
+        culet: gem.culet,
+    })?;
+    Ok(mesh.transformed(&upright(gem.center.into(), gem.axis.into())))
+}
+
+fn water_surface(water: &desc::WaterSurface) -> Result<TriangleMesh, MeshError> {
+    let mesh = shapes::water_surface(&shapes::Water {
+        size: water.size,
+        resolution: water.resolution,
+        depth: water.depth,
+        wind_speed: water.wind_speed,
+        wind_direction: water.wind_degrees.to_radians(),
+        fetch: water.fetch,
+        wave_height: water.wave_height,
+        waves: water.waves,
+        seed: water.seed.into(),
+        time: water.time,
+    })?;
+    Ok(place(mesh, Affine3A::from_translation(water.center.into())))
 }
 
 /// Two triangles, split from the first corner to the third; the four need not be planar.
@@ -319,6 +365,82 @@ mod tests {
         let teapot = |solid| made(ShapeDesc::Teapot { level: 4, parts: desc::TEAPOT_PARTS.to_vec(), solid });
         assert!(teapot(true).is_closed());
         assert!(!teapot(false).is_closed());
+    }
+
+    #[test]
+    fn solids_stand_on_their_base_along_their_axis() {
+        let (base, axis, segments) = ([1.0, 2.0, 3.0], [0.0, 0.0, 2.0], 64);
+        let tube = |closed| ShapeDesc::Cylinder {
+            base,
+            axis,
+            radius: 0.5,
+            height: 2.0,
+            inward: false,
+            closed,
+            segments,
+        };
+        assert!(made(tube(true)).is_closed() && !made(tube(false)).is_closed());
+        let cone = |closed| ShapeDesc::Cone {
+            base,
+            axis,
+            radius: 0.5,
+            top_radius: 0.0,
+            height: 2.0,
+            closed,
+            segments,
+        };
+        assert!(made(cone(true)).is_closed() && !made(cone(false)).is_closed());
+        let capsule = made(ShapeDesc::Capsule { base, axis, radius: 0.5, height: 2.0, segments });
+        assert!(capsule.is_closed());
+        let ends = |mesh: TriangleMesh| [mesh.bounds().min.z, mesh.bounds().max.z];
+        for (mesh, [low, high]) in
+            [(made(tube(true)), [3.0, 5.0]), (made(cone(true)), [3.0, 5.0]), (capsule, [2.5, 5.5])]
+        {
+            assert!(mesh.signed_volume() > 0.0);
+            let [a, b] = ends(mesh);
+            assert!((a - low).abs() < 1e-6 && (b - high).abs() < 1e-6, "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn gems_and_water_lie_where_they_are_put() {
+        let gem = desc::Brilliant {
+            center: [0.0, 1.0, 0.0],
+            axis: [1.0, 0.0, 0.0],
+            diameter: 2.0,
+            table: 0.53,
+            crown_degrees: 34.5,
+            pavilion_degrees: 40.75,
+            girdle: 0.02,
+            star_length: 0.5,
+            lower_half_length: 0.75,
+            culet: 0.0,
+        };
+        let stone = made(ShapeDesc::RoundBrilliant(gem.clone()));
+        assert!(stone.is_closed() && stone.signed_volume() > 0.0);
+        // The table faces along the axis.
+        assert!((stone.bounds().max.x - 0.343).abs() < 1e-3, "{:?}", stone.bounds());
+        let hollow = desc::Brilliant { star_length: 0.01, ..gem };
+        assert!(solid(&SceneDesc::default(), &ShapeDesc::RoundBrilliant(hollow)).is_err());
+        let water = desc::WaterSurface {
+            center: [5.0, 2.0, 0.0],
+            size: [2.0, 4.0],
+            depth: Some(1.0),
+            resolution: 64,
+            wind_speed: 3.0,
+            wind_degrees: 0.0,
+            fetch: 500.0,
+            wave_height: Some(0.01),
+            waves: 64,
+            seed: 1,
+            time: 0.0,
+        };
+        let body = made(ShapeDesc::WaterSurface(water.clone()));
+        assert!(body.is_closed());
+        assert!((body.signed_volume() - 8.0).abs() < 0.02, "{}", body.signed_volume());
+        assert_eq!((body.bounds().min, body.bounds().max.x), (Vec3::new(4.0, 1.0, -2.0), 6.0));
+        let coarse = desc::WaterSurface { resolution: 8, ..water };
+        assert!(solid(&SceneDesc::default(), &ShapeDesc::WaterSurface(coarse)).is_err());
     }
 
     #[test]

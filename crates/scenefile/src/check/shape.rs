@@ -1,9 +1,11 @@
 //! Shapes, views and placements without extent.
 
-use crate::desc::{Shape, TransformStep, Triple};
+use crate::desc::{Shape, TransformStep, Triple, WaterSurface};
 
 /// Triangles that one object may make of a formula.
 const MOST_TRIANGLES: u64 = 1 << 26;
+/// Waves times cells that one water may have: some ten seconds of adding up.
+const MOST_WAVE_CELLS: u64 = 1 << 33;
 /// Two directions this close to parallel, as the sine of their angle, span no plane.
 const PARALLEL: f64 = 1e-6;
 
@@ -125,6 +127,36 @@ pub(crate) fn shape_fault(shape: &Shape) -> Option<(&'static str, String)> {
                 })
                 .or_else(|| degenerate(*segments < 3, "there are less than 3 segments"))
         }
+        Shape::Cone { axis, radius, top_radius, height, segments, .. } => {
+            degenerate(!has_length(*axis), "the axis has no length")
+                .or_else(|| {
+                    degenerate(!positive(*radius) || !positive(*height), "radius or height is not > 0")
+                })
+                .or_else(|| {
+                    degenerate(!(*top_radius >= 0.0 && top_radius.is_finite()), "the top radius is not ≥ 0")
+                })
+                .or_else(|| degenerate(*segments < 3, "there are less than 3 segments"))
+        }
+        Shape::Capsule { axis, radius, height, segments, .. } => {
+            degenerate(!has_length(*axis), "the axis has no length")
+                .or_else(|| {
+                    degenerate(!positive(*radius) || !positive(*height), "radius or height is not > 0")
+                })
+                .or_else(|| degenerate(*segments < 3, "there are less than 3 segments"))
+        }
+        Shape::RoundedBox { min, max, radius, steps } => {
+            let side = (0..3).map(|i| max[i] - min[i]).fold(f32::INFINITY, f32::min);
+            degenerate(!(side > 0.0 && side.is_finite()), "`max` does not exceed `min` in every coordinate")
+                .or_else(|| degenerate(!positive(*radius), "the radius is not > 0"))
+                .or_else(|| {
+                    degenerate(2.0 * radius >= side, "the radius is not less than half the least side")
+                })
+                .or_else(|| degenerate(*steps < 1, "there are no steps"))
+                .or_else(|| too_many(16 * (*steps as u64 + 1).pow(2)))
+        }
+        Shape::RoundBrilliant(gem) => degenerate(!has_length(gem.axis), "the axis has no length")
+            .or_else(|| degenerate(!positive(gem.diameter), "the diameter is not > 0")),
+        Shape::WaterSurface(water) => water_fault(water),
         Shape::Torus { axis, major_radius, minor_radius, segments, tube_segments, .. } => {
             degenerate(!has_length(*axis), "the axis has no length")
                 .or_else(|| {
@@ -147,6 +179,30 @@ pub(crate) fn shape_fault(shape: &Shape) -> Option<(&'static str, String)> {
         | Shape::WineGlass { segments }
         | Shape::Wine { segments } => degenerate(*segments < 3, "there are less than 3 segments"),
     }
+}
+
+fn water_fault(water: &WaterSurface) -> Option<(&'static str, String)> {
+    let degenerate = |wrong: bool, text: &str| wrong.then(|| ("degenerate", text.to_owned()));
+    let positive = |x: f32| x > 0.0 && x.is_finite();
+    let [x, z] = water.size;
+    degenerate(!positive(x) || !positive(z), "a side is not > 0")
+        .or_else(|| degenerate(water.depth.is_some_and(|d| !positive(d)), "the depth is not > 0"))
+        .or_else(|| degenerate(!positive(water.fetch), "the fetch is not > 0"))
+        .or_else(|| {
+            degenerate(!(8..=4096).contains(&water.resolution), "the resolution is not from 8 to 4096")
+        })
+        .or_else(|| degenerate(!(1..=4096).contains(&water.waves), "the waves are not 1 to 4096"))
+        .or_else(|| {
+            let work = u64::from(water.resolution).pow(2) * u64::from(water.waves);
+            (work > MOST_WAVE_CELLS).then(|| {
+                let (waves, cells) = (water.waves, water.resolution);
+                ("too-large", format!("{waves} waves on {cells}² cells take too long: lower one of them"))
+            })
+        })
+        .or_else(|| {
+            let still = water.wind_speed == 0.0 && water.wave_height.is_some_and(|h| h > 0.0);
+            still.then(|| ("conflict", "`wave_height` without wind: `wind_speed` is 0".to_owned()))
+        })
 }
 
 fn triangles_fault(

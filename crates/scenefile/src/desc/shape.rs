@@ -132,7 +132,7 @@ pub enum Shape {
         /// Where the profile turns by more than this it has a corner; 0..=180.
         crease_degrees: f32,
     },
-    /// An open tube.
+    /// A tube or, closed, a solid.
     Cylinder {
         /// Centre of its lower rim.
         base: Triple,
@@ -144,6 +144,8 @@ pub enum Shape {
         height: f32,
         /// Whether normals point to the axis instead of away.
         inward: bool,
+        /// Whether disks close both ends.
+        closed: bool,
         /// Facets around, ≥ 3.
         segments: u32,
     },
@@ -208,4 +210,101 @@ pub enum Shape {
         /// Facets around, ≥ 3.
         segments: u32,
     },
+    /// A cone, normals outward.
+    Cone {
+        /// Centre of its base.
+        base: Triple,
+        /// Direction from the base, of any length but zero.
+        axis: Triple,
+        /// Its radius at the base, > 0.
+        radius: f32,
+        /// Its radius at the other end, ≥ 0.
+        top_radius: f32,
+        /// Its length, > 0.
+        height: f32,
+        /// Whether disks close the ends.
+        closed: bool,
+        /// Facets around, ≥ 3.
+        segments: u32,
+    },
+    /// A cylinder between two half balls, normals outward.
+    Capsule {
+        /// Centre of the first half ball.
+        base: Triple,
+        /// Direction from the base, of any length but zero.
+        axis: Triple,
+        /// Its radius, > 0.
+        radius: f32,
+        /// Between the half balls' centres, > 0.
+        height: f32,
+        /// Facets around, ≥ 3.
+        segments: u32,
+    },
+    /// A [`Box`](Self::Box) with round edges.
+    RoundedBox {
+        /// Its least corner.
+        min: Triple,
+        /// Its greatest corner.
+        max: Triple,
+        /// Radius of the edges, > 0 and less than half the least side.
+        radius: f32,
+        /// Facets round each edge, ≥ 1.
+        steps: u32,
+    },
+    /// A cut gem.
+    RoundBrilliant(Brilliant),
+    /// Water under wind.
+    WaterSurface(WaterSurface),
+}
+
+/// A round brilliant; ratios are of its diameter.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Brilliant {
+    /// The middle of its girdle.
+    pub center: Triple,
+    /// Where its table faces; of any length but zero.
+    pub axis: Triple,
+    /// Of the girdle, corner to corner, > 0.
+    pub diameter: f32,
+    /// Ratio of the table, corner to corner.
+    pub table: f32,
+    /// Between girdle and bezels.
+    pub crown_degrees: f32,
+    /// Between girdle and pavilion mains.
+    pub pavilion_degrees: f32,
+    /// Ratio of the girdle's height.
+    pub girdle: f32,
+    /// How far stars reach from table to girdle; 0 to 1.
+    pub star_length: f32,
+    /// How far lower halves reach from the girdle to the middle; 0 to 1.
+    pub lower_half_length: f32,
+    /// Ratio of the culet; 0 for a point.
+    pub culet: f32,
+}
+
+/// Water under wind, in metres and seconds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WaterSurface {
+    /// The middle of its level.
+    pub center: Triple,
+    /// Sides along x and z, > 0.
+    pub size: [f32; 2],
+    /// From the level to the bottom of a closed body, > 0; `None` for an open sheet.
+    pub depth: Option<f32>,
+    /// Cells along the longer side; 8..=4096.
+    pub resolution: u32,
+    /// The wind's speed in m/s, ≥ 0.
+    pub wind_speed: f32,
+    /// Whither it blows, from +x toward −z.
+    pub wind_degrees: f32,
+    /// How far it has blown over water, > 0.
+    pub fetch: f32,
+    /// The significant height of the waves, ≥ 0; `None` for what the wind gives.
+    pub wave_height: Option<f32>,
+    /// How many waves are added up; 1..=4096.
+    pub waves: u32,
+    /// Which of all such waters.
+    pub seed: u32,
+    /// The moment in seconds.
+    pub time: f32,
 }

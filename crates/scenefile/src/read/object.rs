@@ -3,8 +3,8 @@
 use super::amount::{self, Amount};
 use super::material;
 use crate::desc::{
-    Emission, EmissionAmount, Instance, Normals, Object, Shape, TEAPOT_PARTS, TeapotPart, TransformStep,
-    TransformSteps,
+    Brilliant, Emission, EmissionAmount, Instance, Normals, Object, Shape, TEAPOT_PARTS, TeapotPart,
+    TransformStep, TransformSteps, WaterSurface,
 };
 use crate::diagnostic::{Diagnostic, Report};
 use crate::document::{Entry, Node, Value};
@@ -138,15 +138,51 @@ fn shape(report: &mut Report, r: &Reader<'_>) -> Option<Shape> {
             let (base, axis) = (r.point(report, "base"), r.point(report, "axis"));
             let (radius, height) = (r.number(report, "radius"), r.number(report, "height"));
             let (inward, segments) = (r.bool(report, "inward"), r.integer(report, "segments"));
+            let closed = r.bool(report, "closed");
             Some(Shape::Cylinder {
                 base: base?,
                 axis: axis?,
                 radius: radius?,
                 height: height?,
                 inward: inward?,
+                closed: closed?,
                 segments: segments?,
             })
         }
+        "cone" => {
+            let (base, axis) = (r.point(report, "base"), r.point(report, "axis"));
+            let (radius, top_radius) = (r.number(report, "radius"), r.number(report, "top_radius"));
+            let (height, closed) = (r.number(report, "height"), r.bool(report, "closed"));
+            let segments = r.integer(report, "segments");
+            Some(Shape::Cone {
+                base: base?,
+                axis: axis?,
+                radius: radius?,
+                top_radius: top_radius?,
+                height: height?,
+                closed: closed?,
+                segments: segments?,
+            })
+        }
+        "capsule" => {
+            let (base, axis) = (r.point(report, "base"), r.point(report, "axis"));
+            let (radius, height) = (r.number(report, "radius"), r.number(report, "height"));
+            let segments = r.integer(report, "segments");
+            Some(Shape::Capsule {
+                base: base?,
+                axis: axis?,
+                radius: radius?,
+                height: height?,
+                segments: segments?,
+            })
+        }
+        "rounded-box" => {
+            let (min, max) = (r.point(report, "min"), r.point(report, "max"));
+            let (radius, steps) = (r.number(report, "radius"), r.integer(report, "steps"));
+            Some(Shape::RoundedBox { min: min?, max: max?, radius: radius?, steps: steps? })
+        }
+        "round-brilliant" => brilliant(report, r).map(Shape::RoundBrilliant),
+        "water-surface" => water(report, r).map(Shape::WaterSurface),
         "torus" => {
             let (center, axis) = (r.point(report, "center"), r.point(report, "axis"));
             let (major_radius, minor_radius) =
@@ -185,6 +221,48 @@ fn shape(report: &mut Report, r: &Reader<'_>) -> Option<Shape> {
             Some(Shape::Icosphere { center: center?, radius: radius?, level: level?, smooth: smooth? })
         }
     }
+}
+
+fn brilliant(report: &mut Report, r: &Reader<'_>) -> Option<Brilliant> {
+    let (center, axis) = (r.point(report, "center"), r.point(report, "axis"));
+    let (diameter, table) = (r.number(report, "diameter"), r.number(report, "table"));
+    let (crown, pavilion) = (r.number(report, "crown_angle"), r.number(report, "pavilion_angle"));
+    let (girdle, star_length) = (r.number(report, "girdle"), r.number(report, "star_length"));
+    let (lower, culet) = (r.number(report, "lower_half_length"), r.number(report, "culet"));
+    Some(Brilliant {
+        center: center?,
+        axis: axis?,
+        diameter: diameter?,
+        table: table?,
+        crown_degrees: crown?,
+        pavilion_degrees: pavilion?,
+        girdle: girdle?,
+        star_length: star_length?,
+        lower_half_length: lower?,
+        culet: culet?,
+    })
+}
+
+fn water(report: &mut Report, r: &Reader<'_>) -> Option<WaterSurface> {
+    let (center, size) = (r.point(report, "center"), r.pair(report, "size"));
+    let (depth, resolution) = (r.optional_number(report, "depth"), r.integer(report, "resolution"));
+    let (wind_speed, wind) = (r.number(report, "wind_speed"), r.number(report, "wind_direction"));
+    let (fetch, wave_height) = (r.number(report, "fetch"), r.optional_number(report, "wave_height"));
+    let (waves, seed) = (r.integer(report, "waves"), r.integer(report, "seed"));
+    let time = r.number(report, "time");
+    Some(WaterSurface {
+        center: center?,
+        size: size?,
+        depth: depth?,
+        resolution: resolution?,
+        wind_speed: wind_speed?,
+        wind_degrees: wind?,
+        fetch: fetch?,
+        wave_height: wave_height?,
+        waves: waves?,
+        seed: seed?,
+        time: time?,
+    })
 }
 
 fn quad(report: &mut Report, r: &Reader<'_>) -> Option<Shape> {

@@ -5,6 +5,7 @@ mod light;
 mod material;
 mod object;
 mod settings;
+mod shape;
 mod texture;
 
 pub use light::LIGHTS;
