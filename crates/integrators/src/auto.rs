@@ -147,8 +147,8 @@ impl Tracer for Eye<'_> {
                 return sink.ended(PathEnd::Escaped);
             };
             sink.reached(&walk, &vertex);
-            if walk.depth == 0 {
-                sink.features(&vertex);
+            if walk.shows(&vertex) {
+                sink.features(&walk, &vertex);
             }
             if let Some(e) = emission_in_chain(&walk, &vertex, &chain) {
                 add_emission(sink, &walk, class, &e);

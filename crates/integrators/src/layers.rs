@@ -6,7 +6,7 @@ use film::PixelSample;
 use photons::PhotonFlags;
 use sampling::{Domain, Streams};
 use scene::Scene;
-use transport::{LightLayer, Vertex};
+use transport::{LightLayer, Vertex, Walk};
 
 use crate::pixels::{Traced, Tracer, start};
 use crate::sink::{Origin, Parts, Sink, Source, Technique};
@@ -144,8 +144,8 @@ impl Sink for Layered<'_> {
         }
     }
 
-    fn features(&mut self, vertex: &Vertex) {
-        self.sample.features(vertex);
+    fn features(&mut self, walk: &Walk<'_>, vertex: &Vertex) {
+        self.sample.features(walk, vertex);
     }
 
     fn density(&mut self, photons_per_area: f32) {

@@ -63,8 +63,8 @@ impl Tracer for Path {
                 return sink.ended(PathEnd::Escaped);
             };
             sink.reached(&walk, &vertex);
-            if walk.depth == 0 {
-                sink.features(&vertex);
+            if walk.shows(&vertex) {
+                sink.features(&walk, &vertex);
             }
             if let Some(e) = emission_at(&walk, &vertex) {
                 add_emission(sink, &walk, class, &e);

@@ -141,7 +141,7 @@ impl Sink for Tally {
         self.add(Origin { layer, technique, source: Source::Unknown }, sum);
     }
 
-    fn features(&mut self, _vertex: &Vertex) {}
+    fn features(&mut self, _walk: &Walk<'_>, _vertex: &Vertex) {}
 
     fn density(&mut self, _photons_per_area: f32) {}
 

@@ -214,8 +214,8 @@ impl Sink for Recording<'_> {
         self.light(layer, technique, from, sum.total);
     }
 
-    fn features(&mut self, vertex: &Vertex) {
-        self.sample.features(vertex);
+    fn features(&mut self, walk: &Walk<'_>, vertex: &Vertex) {
+        self.sample.features(walk, vertex);
     }
 
     fn density(&mut self, photons_per_area: f32) {

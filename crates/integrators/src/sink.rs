@@ -153,8 +153,9 @@ pub(crate) trait Sink {
     /// The same of several sources.
     fn add_sum(&mut self, layer: LightLayer, technique: Technique, sum: Self::Sum);
 
-    /// The first surface.
-    fn features(&mut self, vertex: &Vertex);
+    /// A surface that the walk [shows](Walk::shows): the first one, or what is seen in mirrors and through glass. Of walks
+    /// that were split there is one for each.
+    fn features(&mut self, walk: &Walk<'_>, vertex: &Vertex);
 
     /// Photons per unit area that an estimate found.
     fn density(&mut self, photons_per_area: f32);
@@ -196,12 +197,19 @@ impl Sink for PixelSample {
     }
 
     #[inline]
-    fn features(&mut self, vertex: &Vertex) {
+    fn features(&mut self, walk: &Walk<'_>, vertex: &Vertex) {
         let ns = vertex.bsdf.ns();
         let facing = if ns.dot(vertex.wo) < 0.0 { -ns } else { ns };
-        self.albedo = vertex.bsdf.albedo(vertex.wo).to_rgb();
-        self.normal = facing.to_array();
-        self.depth = vertex.hit.t;
+        let tint = walk.tint().to_rgb().map(|t| t.clamp(0.0, 1.0));
+        let share = tint.into_iter().fold(0.0, f32::max);
+        let albedo = vertex.bsdf.albedo(vertex.wo).to_rgb();
+        for ((sum, albedo), tint) in self.albedo.iter_mut().zip(albedo).zip(tint) {
+            *sum += tint * albedo;
+        }
+        for (sum, n) in self.normal.iter_mut().zip((facing * share).to_array()) {
+            *sum += n;
+        }
+        self.depth = if self.depth > 0.0 { self.depth.min(walk.length()) } else { walk.length() };
     }
 
     #[inline]

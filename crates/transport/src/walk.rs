@@ -40,6 +40,10 @@ pub struct Walk<'s> {
     pub(crate) last: Option<Scattered>,
     /// Whether no invisible boundary was passed since the last vertex.
     clear: bool,
+    /// Whether all surfaces so far scatter by delta lobes alone.
+    delta_only: bool,
+    /// Length of the walk up to the last vertex.
+    length: f32,
 }
 
 /// A point that a walk reached.
@@ -129,6 +133,8 @@ impl<'s> Walk<'s> {
             eta_scale: 1.0,
             last: None,
             clear: true,
+            delta_only: true,
+            length: 0.0,
         }
     }
 
@@ -163,6 +169,7 @@ impl<'s> Walk<'s> {
                 self.throughput *= left(self.scene, &{ self.media }, hit.t);
             }
             self.footprint += self.spread * hit.t;
+            self.length += hit.t;
             let eta = match self.scene.boundary(&hit, &self.media, self.ray.direction) {
                 None => 1.0,
                 Some(Boundary::Interface { eta }) => eta,
@@ -251,6 +258,7 @@ impl<'s> Walk<'s> {
     #[inline]
     fn follow(&mut self, vertex: &Vertex, wi: Vec3, weight: Lanes, lobes: Lobes, eta: f32) {
         self.throughput *= weight;
+        self.delta_only &= vertex.bsdf.is_delta_only();
         match self.mode {
             TransportMode::Importance => self.throughput *= vertex.bsdf.shading_correction(vertex.wo, wi),
             TransportMode::Radiance => self.eta_scale *= eta * eta,
@@ -286,6 +294,25 @@ impl<'s> Walk<'s> {
     #[inline]
     pub fn survival(&self) -> f32 {
         self.throughput.max() * self.eta_scale
+    }
+
+    /// Whether `vertex` is the first surface of the walk that has more than delta lobes: what mirrors and clear glass
+    /// before it show.
+    #[inline]
+    pub fn shows(&self, vertex: &Vertex) -> bool {
+        self.delta_only && !vertex.bsdf.is_delta_only()
+    }
+
+    /// What the walk so far leaves of light, without the scaling at refractions; what went on without loss is about 1.
+    #[inline]
+    pub fn tint(&self) -> Lanes {
+        self.throughput * self.eta_scale
+    }
+
+    /// Length of the walk up to its last vertex.
+    #[inline]
+    pub fn length(&self) -> f32 {
+        self.length
     }
 
     /// The scene walked through.

@@ -65,8 +65,8 @@ impl Tracer for Eye<'_> {
                 return sink.ended(PathEnd::Escaped);
             };
             sink.reached(&path.walk, &at.vertex);
-            if path.walk.depth == 0 {
-                sink.features(&at.vertex);
+            if path.walk.shows(&at.vertex) {
+                sink.features(&path.walk, &at.vertex);
             }
             if let Some(e) = emission_against_all(path.scene(), &path.end(), &at.vertex, eta) {
                 self.add_emission(&path, class, &e, sink);

@@ -11,6 +11,7 @@ mod caustics;
 mod closed_forms;
 mod depth;
 mod determinism;
+mod features;
 mod few_lights;
 mod furnace;
 mod lamps;
