@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
-use nephroid::desc::IntegratorKind;
+use nephroid::desc::{self, IntegratorKind};
 use nephroid::{Crop, Exposure, Extent, PhotonKind, ViewTransform, WhiteBalance};
 
 use crate::values::{CameraSets, GroupFactor, Previews, Size};
@@ -117,6 +117,12 @@ pub struct Changes {
     /// How PNG pictures are shown.
     #[command(flatten)]
     pub display: DisplayArgs,
+
+    /// Take noise out of pictures by Open Image Denoise, where it is found (NEPHROID_OIDN, OIDN_DIR, the system's, or that of
+    /// `pip install pyoidn`); EXR pictures keep what was rendered, and the denoised as the layer "denoised". With
+    /// =require, nothing is rendered where it is not found [default: the scene's, or off].
+    #[arg(long, value_name = "HOW", num_args = 0..=1, require_equals = true, default_missing_value = "auto")]
+    pub denoise: Option<Denoise>,
 
     /// Replace any value of the scene, as photon_map.knn=80 or materials.glass.ior=1.5 (a TOML value); may be given
     /// several times. Of scenes of other programs, names are those that `nephroid convert` writes.
@@ -257,6 +263,12 @@ pub struct ResumeArgs {
     #[arg(long, value_name = "PERCENT", value_parser = values::noise)]
     pub noise: Option<f32>,
 
+    /// Take noise out of pictures by Open Image Denoise, where it is found (NEPHROID_OIDN, OIDN_DIR, the system's, or that of
+    /// `pip install pyoidn`); EXR pictures keep what was rendered, and the denoised as the layer "denoised". With
+    /// =require, nothing is done where it is not found [default: as when the render began].
+    #[arg(long, value_name = "HOW", num_args = 0..=1, require_equals = true, default_missing_value = "auto")]
+    pub denoise: Option<Denoise>,
+
     /// Picture to write: .exr or .png; may be given several times [default: as when the render began].
     #[arg(short, long = "output", value_name = "OUT")]
     pub output: Vec<PathBuf>,
@@ -289,6 +301,12 @@ pub struct MergeArgs {
     #[command(flatten)]
     pub display: DisplayArgs,
 
+    /// Take noise out of pictures by Open Image Denoise, where it is found (NEPHROID_OIDN, OIDN_DIR, the system's, or that of
+    /// `pip install pyoidn`); EXR pictures keep what was rendered, and the denoised as the layer "denoised". With
+    /// =require, nothing is done where it is not found [default: as when the renders began].
+    #[arg(long, value_name = "HOW", num_args = 0..=1, require_equals = true, default_missing_value = "auto")]
+    pub denoise: Option<Denoise>,
+
     /// Say nothing but what went wrong.
     #[arg(short, long)]
     pub quiet: bool,
@@ -314,6 +332,12 @@ pub struct DevelopArgs {
     /// How PNG pictures are shown.
     #[command(flatten)]
     pub display: DisplayArgs,
+
+    /// Take noise out of pictures by Open Image Denoise, where it is found (NEPHROID_OIDN, OIDN_DIR, the system's, or that of
+    /// `pip install pyoidn`); EXR pictures keep what was rendered, and the denoised as the layer "denoised". With
+    /// =require, nothing is done where it is not found [default: as when the render began, of EXR pictures off].
+    #[arg(long, value_name = "HOW", num_args = 0..=1, require_equals = true, default_missing_value = "auto")]
+    pub denoise: Option<Denoise>,
 
     /// Say nothing but what went wrong.
     #[arg(short, long)]
@@ -355,6 +379,27 @@ pub struct ReplayArgs {
     /// Print JSON, one object a path.
     #[arg(long)]
     pub json: bool,
+}
+
+/// Whether noise is taken out of pictures, as in scene files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Denoise {
+    /// Pictures are what was rendered.
+    Off,
+    /// Where the library is found.
+    Auto,
+    /// An error where it is not found.
+    Require,
+}
+
+impl From<Denoise> for desc::Denoise {
+    fn from(how: Denoise) -> Self {
+        match how {
+            Denoise::Off => Self::Off,
+            Denoise::Auto => Self::Auto,
+            Denoise::Require => Self::Require,
+        }
+    }
 }
 
 /// Layers on request, as in scene files.

@@ -2,14 +2,17 @@
 
 use std::path::Path;
 
+use nephroid::desc::Denoise;
 use nephroid::{
     Checkpoint, ExrChannels, MixError, OutputKind, PictureInfo, Planes, SceneDesc, SceneHash, is_same_file,
     merge, nearest,
 };
 
 use crate::args::DevelopArgs;
+use crate::denoise::Denoising;
 use crate::display::picture_info;
 use crate::failure::{FAILED, Failure, OK, Outcome};
+use crate::progress::Progress;
 use crate::render::checked;
 use crate::say;
 
@@ -26,11 +29,26 @@ pub fn run(args: &DevelopArgs) -> Outcome {
     if !messages.is_empty() {
         return Err(Failure::Usage(messages));
     }
-    let (mut planes, info) = read(args)?;
+    let Read { mut planes, mut info, denoise } = read(args)?;
     let factors: Vec<(String, [f32; 3])> =
         args.light.iter().map(|light| (light.group.clone(), light.factor)).collect();
     planes.mix(&factors).map_err(|error| Failure::usage(refusal(&args.file, &error)))?;
     let mut code = OK;
+    let progress = Progress::plain(args.quiet);
+    if args.denoise.is_some() {
+        planes.denoised.clear();
+    }
+    if let Some(denoising) = Denoising::find(denoise, &progress)? {
+        match denoising.apply(&planes, &progress) {
+            Ok(denoised) => {
+                if let Some(denoised) = denoised {
+                    info.metadata.push(denoised.metadata());
+                    planes.denoised = denoised.into_pixels();
+                }
+            }
+            Err(()) => code = FAILED,
+        }
+    }
     for output in &outputs {
         match output.write_planes(&planes, &info) {
             Ok(()) if args.quiet => {}
@@ -50,14 +68,25 @@ pub fn run(args: &DevelopArgs) -> Outcome {
     Ok(code)
 }
 
-/// The planes of a checkpoint or an EXR file, and what pictures of them are written with.
-fn read(args: &DevelopArgs) -> Result<(Planes, PictureInfo), Failure> {
+/// What was read.
+struct Read {
+    planes: Planes,
+    /// What pictures of it are written with.
+    info: PictureInfo,
+    /// Whether noise is to be taken out.
+    denoise: Denoise,
+}
+
+/// A checkpoint or an EXR file.
+fn read(args: &DevelopArgs) -> Result<Read, Failure> {
+    let wanted = args.denoise.map(Denoise::from);
     if Checkpoint::is_one(&args.file) {
         let one = merge(std::slice::from_ref(&args.file));
         let Checkpoint { info, film } =
             one.map_err(|errors| Failure::Usage(errors.iter().map(ToString::to_string).collect()))?;
         let picture = picture_info(&info.desc, info.hash, &args.display)?;
-        return Ok((Planes::of(&film), picture));
+        let denoise = wanted.unwrap_or(info.desc.film.denoise);
+        return Ok(Read { planes: Planes::of(&film), info: picture, denoise });
     }
     let name = args.file.display();
     let exr = ExrChannels::read(&args.file).map_err(|error| {
@@ -69,7 +98,7 @@ fn read(args: &DevelopArgs) -> Result<(Planes, PictureInfo), Failure> {
     })?;
     let mut info = picture_info(&SceneDesc::default(), SceneHash(0), &args.display)?;
     info.metadata.retain(|(key, _)| key == "software");
-    Ok((planes, info))
+    Ok(Read { planes, info, denoise: wanted.unwrap_or_default() })
 }
 
 fn refusal(file: &Path, error: &MixError) -> String {

@@ -5,11 +5,14 @@ use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use nephroid::{Control, Event, Film, MapReport, Output, OutputKind, Phase, PictureInfo, Session, Timings};
+use nephroid::{
+    Control, Event, Film, MapReport, Output, OutputKind, Phase, PictureInfo, Planes, Session, Timings,
+};
 
 use serde_json::json;
 
 use crate::args::RunArgs;
+use crate::denoise::Denoising;
 use crate::failure::{FAILED, OK, Outcome};
 use crate::grain;
 use crate::info::bytes;
@@ -34,11 +37,13 @@ pub struct Drive<'a> {
     pub again: &'a str,
     /// The grain that ends it.
     pub goal: Option<f32>,
+    /// What takes noise out of the pictures.
+    pub denoising: Option<&'a Denoising>,
 }
 
 /// Renders what is missing and writes the pictures.
 pub fn drive(mut session: Session, how: Drive<'_>, interrupt: &Interrupt) -> Outcome {
-    let Drive { outputs, info, run: args, mut timings, again, goal } = how;
+    let Drive { outputs, info, run: args, mut timings, again, goal, denoising } = how;
     let mut progress = Progress::new(&args);
     interrupt.answer_through(&progress);
     let previews = args.preview_every.map_or_else(default_previews, |Previews(every)| every);
@@ -65,7 +70,8 @@ pub fn drive(mut session: Session, how: Drive<'_>, interrupt: &Interrupt) -> Out
     if session.is_saved() == Some(false) && session.done() > 0 {
         code = FAILED;
     }
-    if session.done() > 0 && !write(outputs, session.film(), info, &progress, &mut timings) {
+    let pictures = Pictures { outputs, info, denoising };
+    if session.done() > 0 && !write(&pictures, session.film(), &progress, &mut timings) {
         code = FAILED;
         if let (Some(true), Some(file)) = (session.is_saved(), session.checkpoint_file()) {
             let file = file.path().display();
@@ -207,18 +213,41 @@ pub fn passes(n: u64) -> String {
     if n == 1 { "1 pass".to_owned() } else { format!("{n} passes") }
 }
 
+/// Pictures to write.
+#[derive(Clone, Copy, Debug)]
+pub struct Pictures<'a> {
+    /// Where.
+    pub outputs: &'a [Output],
+    /// With what.
+    pub info: &'a PictureInfo,
+    /// What takes the noise out.
+    pub denoising: Option<&'a Denoising>,
+}
+
 /// Writes every output that can be written; whether all could.
 pub fn write(
-    outputs: &[Output],
+    &Pictures { outputs, info, denoising }: &Pictures<'_>,
     film: &Film,
-    info: &PictureInfo,
     progress: &Progress,
     timings: &mut Timings,
 ) -> bool {
     let start = Instant::now();
     let mut all = true;
+    let denoised =
+        match denoising.filter(|_| !outputs.is_empty()).map(|how| how.apply(&Planes::of(film), progress)) {
+            Some(Ok(denoised)) => denoised,
+            Some(Err(())) => {
+                all = false;
+                None
+            }
+            None => None,
+        };
     for output in outputs {
-        match output.write(film, info) {
+        let written = match &denoised {
+            Some(denoised) => output.write_denoised(film, info, denoised),
+            None => output.write(film, info),
+        };
+        match written {
             Ok(()) => {
                 let (path, width, height) = (output.path().display(), film.width(), film.height());
                 let count = film.passes();

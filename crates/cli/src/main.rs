@@ -4,6 +4,7 @@ mod args;
 mod checkpoint;
 mod compare;
 mod convert;
+mod denoise;
 mod describe;
 mod develop;
 mod display;

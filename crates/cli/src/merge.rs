@@ -6,8 +6,9 @@ use nephroid::{Checkpoint, CheckpointFile, MergeError, Timings, gaps, merge, ove
 
 use crate::args::MergeArgs;
 use crate::checkpoint;
+use crate::denoise::Denoising;
 use crate::display::picture_info;
-use crate::drive::{passes, say_replaced, write};
+use crate::drive::{Pictures, passes, say_replaced, write};
 use crate::failure::{FAILED, Failure, OK, Outcome};
 use crate::grain;
 use crate::info::bytes;
@@ -46,6 +47,8 @@ pub fn run(args: &MergeArgs) -> Outcome {
         return Err(Failure::Usage(replaced.iter().map(refusal).collect()));
     }
     let progress = Progress::plain(args.quiet);
+    let how = args.denoise.map_or(info.desc.film.denoise, Into::into);
+    let denoising = Denoising::find(how, &progress)?;
     say_replaced(&progress, &outputs);
     if !args.quiet {
         let missing = gaps(film.pass_ranges());
@@ -78,7 +81,8 @@ pub fn run(args: &MergeArgs) -> Outcome {
             }
         }
     }
-    if !write(&outputs, &film, &picture, &progress, &mut Timings::default()) {
+    let pictures = Pictures { outputs: &outputs, info: &picture, denoising: denoising.as_ref() };
+    if !write(&pictures, &film, &progress, &mut Timings::default()) {
         code = FAILED;
     }
     if let Some(noise) = grain::line(&film).filter(|_| !args.quiet) {

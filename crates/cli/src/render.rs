@@ -11,6 +11,7 @@ use serde_json::json;
 
 use crate::args::{Layers, RenderArgs};
 use crate::checkpoint;
+use crate::denoise::Denoising;
 use crate::display::picture_info;
 use crate::drive::{Drive, absolute, drive, say_replaced};
 use crate::failure::{Failure, OK, Outcome};
@@ -110,8 +111,9 @@ fn read(
 
 fn render(args: &RenderArgs, prepared: Prepared<'_>, interrupt: &Interrupt) -> Outcome {
     let Prepared { scene: path, outputs, mut described, file } = prepared;
-    let (scene, warnings) = compiled(&mut described, args.run.threads)?;
     let progress = Progress::before(&args.run);
+    let denoising = Denoising::find(described.desc.film.denoise, &progress)?;
+    let (scene, warnings) = compiled(&mut described, args.run.threads)?;
     progress.diagnostics(&warnings);
     let desc = &described.desc;
     let job = wanted_passes(args, Job::new(desc, scene.scene).map_err(Failure::usage)?);
@@ -146,7 +148,8 @@ fn render(args: &RenderArgs, prepared: Prepared<'_>, interrupt: &Interrupt) -> O
     let again = scene_arguments(path, &args.changes);
     let timings = described.timings;
     let goal = desc.render.noise;
-    drive(session, Drive { outputs, info: &info, run: args.run, timings, again: &again, goal }, interrupt)
+    let (denoising, run) = (denoising.as_ref(), args.run);
+    drive(session, Drive { outputs, info: &info, run, timings, again: &again, goal, denoising }, interrupt)
 }
 
 /// The passes that were asked for: a range, a number, those of the scene, or with nothing but a time or a grain, without

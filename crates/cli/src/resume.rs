@@ -7,6 +7,7 @@ use nephroid::{
 
 use crate::args::ResumeArgs;
 use crate::checkpoint;
+use crate::denoise::Denoising;
 use crate::display::picture_info;
 use crate::drive::{Drive, drive, say_replaced};
 use crate::failure::{Failure, Outcome};
@@ -36,6 +37,8 @@ pub fn run(args: &ResumeArgs) -> Outcome {
         session = session.with_outputs(crate::drive::absolute(&outputs));
     }
     let progress = Progress::before(&args.run);
+    let how = args.denoise.map_or(info.desc.film.denoise, Into::into);
+    let denoising = Denoising::find(how, &progress)?;
     progress.diagnostics(&render_all(&warnings, &Sources::default()));
     let (name, done) = (args.checkpoint.display(), session.done());
     progress.line(&match (session.total(), session.missing()) {
@@ -49,7 +52,8 @@ pub fn run(args: &ResumeArgs) -> Outcome {
     }
     let again = quoted(&args.checkpoint.to_string_lossy());
     let goal = args.noise.or(info.desc.render.noise);
-    let how = Drive { outputs: &outputs, info: &picture, run: args.run, timings, again: &again, goal };
+    let (denoising, run) = (denoising.as_ref(), args.run);
+    let how = Drive { outputs: &outputs, info: &picture, run, timings, again: &again, goal, denoising };
     drive(session, how, &Interrupt::catch()?)
 }
 

@@ -109,6 +109,7 @@ fn overrides(changes: &Changes) -> Overrides {
         exposure: changes.display.exposure,
         white_balance: changes.display.white_balance,
         view: changes.display.view,
+        denoise: changes.denoise.map(Into::into),
         max_depth: changes.max_depth,
         noise: changes.noise,
     }

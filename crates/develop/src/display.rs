@@ -99,7 +99,7 @@ impl Settled {
             // The cast saturates.
             colour.map(|v| (v * 255.0 + 0.5) as u8)
         };
-        let mut pixels: Vec<[u8; 3]> = planes.beauty.iter().map(shown).collect();
+        let mut pixels: Vec<[u8; 3]> = planes.shown().iter().map(shown).collect();
         if self.display.view == ViewTransform::FalseColour {
             legend::draw(&mut pixels, planes.width, planes.height, self.ev);
         }

@@ -11,10 +11,14 @@ pub struct Planes {
     pub beauty: Vec<[f32; 3]>,
     /// Reflectance of what is seen; empty where it is not known.
     pub albedo: Vec<[f32; 3]>,
+    /// Unit normals of what is seen, in the world; empty where they are not known.
+    pub normal: Vec<[f32; 3]>,
     /// Distance of what is seen, +∞ where nothing is; empty where it is not known.
     pub depth: Vec<f32>,
     /// Radiance of each group of lights by its name; together they are the beauty. Empty where it was not kept apart.
     pub groups: Vec<(String, Vec<[f32; 3]>)>,
+    /// The beauty without its noise, which is shown in its stead; empty where no denoiser saw it.
+    pub denoised: Vec<[f32; 3]>,
 }
 
 /// What the layers of groups of lights are called, before the group's name.
@@ -32,12 +36,13 @@ pub enum MixError {
 impl Planes {
     /// Of a film.
     pub fn of(film: &Film) -> Self {
-        let albedo = film.layer(Layer::Albedo);
+        let triples = |layer| film.layer(layer).as_chunks::<3>().0.to_vec();
         Self {
             width: film.width(),
             height: film.height(),
             beauty: film.beauty(),
-            albedo: albedo.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect(),
+            albedo: triples(Layer::Albedo),
+            normal: triples(Layer::Normal),
             depth: film.layer(Layer::Depth),
             groups: film
                 .layer_names()
@@ -45,6 +50,7 @@ impl Planes {
                 .enumerate()
                 .filter_map(|(i, name)| Some((name.strip_prefix(GROUP)?.to_owned(), film.named_layer(i)?)))
                 .collect(),
+            denoised: Vec::new(),
         }
     }
 
@@ -59,13 +65,15 @@ impl Planes {
             height: exr.height(),
             beauty,
             albedo: exr.colours("albedo").unwrap_or_default(),
+            normal: exr.vectors("normal").unwrap_or_default(),
             depth: exr.channel("depth.Z").map(<[f32]>::to_vec).unwrap_or_default(),
             groups: layers.iter().filter_map(group).collect(),
+            denoised: exr.colours("denoised").unwrap_or_default(),
         })
     }
 
     /// Multiplies the light of some groups, channel by channel: beauty becomes Σ factor · group, where groups that are
-    /// not named have the factor 1.
+    /// not named have the factor 1. What a denoiser made of the picture is no longer of it, and goes.
     ///
     /// # Errors
     /// Where a group is not there; nothing is changed then.
@@ -87,6 +95,7 @@ impl Planes {
                 }
             }
         }
+        self.denoised.clear();
         for (i, pixel) in self.beauty.iter_mut().enumerate() {
             let sum = |c: usize| self.groups.iter().map(|(_, pixels)| f64::from(pixels[i][c])).sum::<f64>();
             *pixel = std::array::from_fn(|c| sum(c) as f32);
@@ -107,13 +116,24 @@ impl Planes {
         if !self.albedo.is_empty() {
             colours("albedo", &self.albedo);
         }
+        if !self.denoised.is_empty() {
+            colours("denoised", &self.denoised);
+        }
         for (name, pixels) in &self.groups {
             colours(&format!("{GROUP}{name}"), pixels);
+        }
+        for (c, letter) in ["X", "Y", "Z"].iter().enumerate().take(3 * self.normal.len().min(1)) {
+            out.push((format!("normal.{letter}"), self.normal.iter().map(|n| n[c]).collect()));
         }
         if !self.depth.is_empty() {
             out.push(("depth.Z".into(), self.depth.clone()));
         }
         out
+    }
+
+    /// The radiance that is shown: denoised, where it is.
+    pub fn shown(&self) -> &[[f32; 3]] {
+        if self.denoised.is_empty() { &self.beauty } else { &self.denoised }
     }
 
     /// Whether something is seen at a pixel. Where the depth is not known, what is not black is taken for something.

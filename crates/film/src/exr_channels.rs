@@ -75,10 +75,22 @@ impl ExrChannels {
 
     /// The colours of a layer: its channels R, G and B. The empty name is the root layer.
     pub fn colours(&self, layer: &str) -> Option<Vec<[f32; 3]>> {
-        let name =
-            |letter: &str| if layer.is_empty() { letter.to_owned() } else { format!("{layer}.{letter}") };
-        let (r, g, b) = (self.channel(&name("R"))?, self.channel(&name("G"))?, self.channel(&name("B"))?);
-        Some((0..r.len()).map(|i| [r[i], g[i], b[i]]).collect())
+        self.triples(layer, ["R", "G", "B"])
+    }
+
+    /// The vectors of a layer: its channels X, Y and Z.
+    pub fn vectors(&self, layer: &str) -> Option<Vec<[f32; 3]>> {
+        self.triples(layer, ["X", "Y", "Z"])
+    }
+
+    fn triples(&self, layer: &str, letters: [&str; 3]) -> Option<Vec<[f32; 3]>> {
+        let channel = |letter: &str| match layer {
+            "" => self.channel(letter),
+            layer => self.channel(&format!("{layer}.{letter}")),
+        };
+        let [x, y, z] = letters.map(channel);
+        let (x, y, z) = (x?, y?, z?);
+        Some((0..x.len()).map(|i| [x[i], y[i], z[i]]).collect())
     }
 
     /// Names of all layers with R, G and B, sorted; without the root layer.

@@ -28,6 +28,8 @@ pub struct ExrOptions {
     pub layers: Vec<Layer>,
     /// Precision of all layers but beauty and depth, which are 32-bit.
     pub precision: Precision,
+    /// Pictures made of the film, written in 32-bit floats as NAME.R, NAME.G, NAME.B: names, and pixels row by row.
+    pub more: Vec<(String, Vec<[f32; 3]>)>,
     /// String attributes, in this order. Names are of 1 to 31 bytes, without NUL.
     pub metadata: Vec<(String, String)>,
 }
@@ -35,7 +37,12 @@ pub struct ExrOptions {
 impl Default for ExrOptions {
     /// All layers in 32-bit floats, no attributes.
     fn default() -> Self {
-        Self { layers: Layer::ALL.to_vec(), precision: Precision::F32, metadata: Vec::new() }
+        Self {
+            layers: Layer::ALL.to_vec(),
+            precision: Precision::F32,
+            more: Vec::new(),
+            metadata: Vec::new(),
+        }
     }
 }
 
@@ -73,6 +80,14 @@ pub fn encode_exr(film: &Film, options: &ExrOptions) -> Result<Vec<u8>, String> 
         for (c, letter) in ["R", "G", "B"].iter().enumerate() {
             let values = values.iter().map(|p| p[c]);
             channels.push(channel(&format!("{name}.{letter}"), values, options.precision));
+        }
+    }
+    for (name, pixels) in &options.more {
+        if pixels.len() != film.width() * film.height() {
+            return Err(format!("the layer {name} has another size than the film"));
+        }
+        for (c, letter) in ["R", "G", "B"].iter().enumerate() {
+            channels.push(channel(&format!("{name}.{letter}"), pixels.iter().map(|p| p[c]), Precision::F32));
         }
     }
     encode(film.width(), film.height(), channels, &options.metadata)

@@ -55,9 +55,9 @@ pub use scenefile::{
 };
 pub use session::{
     Checkpoint, CheckpointError, CheckpointErrorKind, CheckpointFile, CheckpointInfo, CompileError, Compiled,
-    Control, Crop, Event, Extent, Job, LutFileError, MergeError, Outcome, Output, OutputKind, Overrides,
-    Phase, PictureError, PictureInfo, Remaining, ReplayError, ReplayKey, Replayed, Resumed, SceneHash,
-    Session, SessionError, Timings, Wanted, Warning, check_outputs, compile, film_bytes, gaps, is_same_file,
-    merge, overwritten_inputs, read_lut, replay, resume, said, scene_hash, settings, survey,
-    write_checkpoint,
+    Control, Crop, DenoiseError, Denoised, Denoiser, Event, Extent, Job, LutFileError, MergeError, Outcome,
+    Output, OutputKind, Overrides, Phase, PictureError, PictureInfo, Places, Remaining, ReplayError,
+    ReplayKey, Replayed, Resumed, SceneHash, Session, SessionError, Timings, Wanted, Warning, check_outputs,
+    compile, film_bytes, gaps, is_same_file, merge, overwritten_inputs, read_lut, replay, resume, said,
+    scene_hash, settings, survey, write_checkpoint,
 };

@@ -22,9 +22,10 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("scene", &["math", "par", "sampling", "color", "accel", "mesh", "photometry", "bsdf", "scenefile"]),
     ("film", &["math", "color"]),
     ("develop", &["color", "film"]),
+    ("denoise", &[]),
     ("transport", &["math", "sampling", "color", "scene", "bsdf", "photons"]),
     ("integrators", &["math", "par", "sampling", "color", "scene", "bsdf", "photons", "film", "transport"]),
-    ("session", &["par", "color", "scenefile", "scene", "film", "develop", "integrators"]),
+    ("session", &["par", "color", "denoise", "scenefile", "scene", "film", "develop", "integrators"]),
     (
         "nephroid",
         &["math", "color", "scenefile", "import", "scene", "film", "develop", "integrators", "session"],
@@ -41,7 +42,7 @@ const WORDS: &[(&str, &[&str], &str)] = &[
     ("std::thread", &["par"], "threads"),
     ("thread::spawn", &["par"], "threads"),
     ("thread_local", &[], "state that depends on the schedule"),
-    ("unsafe", &["accel", "photons"], "unsafe code"),
+    ("unsafe", &["accel", "photons", "denoise"], "unsafe code"),
 ];
 
 /// Layers that see no clock and no file.

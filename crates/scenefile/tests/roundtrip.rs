@@ -574,6 +574,7 @@ impl Dice {
                 },
                 view: View::ALL[self.below(5) as usize],
                 lut: self.coin().then(|| Sourced::from(std::path::PathBuf::from("look s.cube"))),
+                denoise: if self.coin() { Denoise::Require } else { Denoise::Auto },
                 layers: Layers { techniques: self.coin(), lights: self.coin() },
             };
             desc.photon_map = PhotonMap {

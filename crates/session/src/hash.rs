@@ -64,6 +64,7 @@ fn with_plain_settings(desc: SceneDesc) -> SceneDesc {
             white_balance: film.white_balance,
             view: film.view,
             lut: film.lut,
+            denoise: film.denoise,
             ..desc.film
         },
         ..desc

@@ -10,6 +10,7 @@
 
 mod checkpoint;
 mod compile;
+mod denoised;
 mod event;
 mod grain;
 mod hash;
@@ -32,6 +33,8 @@ pub use checkpoint::{
     SceneSource, merge, write_checkpoint,
 };
 pub use compile::{CompileError, Compiled, compile, survey};
+pub use denoise::{DenoiseError, Denoiser, Places};
+pub use denoised::Denoised;
 pub use event::{Control, Event, Warning};
 pub use hash::{SceneHash, scene_hash};
 pub use job::{Job, SessionError, film_bytes};

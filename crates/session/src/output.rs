@@ -7,7 +7,7 @@ use develop::{Display, Lut, Planes, Settled};
 use film::{ExrOptions, Film};
 use scenefile::desc::SceneDesc;
 
-use crate::SceneHash;
+use crate::{Denoised, SceneHash};
 
 /// A picture file to be written.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -166,14 +166,41 @@ impl Output {
     /// # Errors
     /// Where the file cannot be written.
     pub fn write(&self, film: &Film, info: &PictureInfo) -> Result<(), PictureError> {
-        let planes = Planes::of(film);
+        self.write_picture(film, info, None)
+    }
+
+    /// The same with what a denoiser made of the film: EXR has it as the layer `denoised` beside all others, PNG shows it.
+    /// The exposure is that of the film.
+    ///
+    /// # Errors
+    /// As [`write`](Self::write).
+    pub fn write_denoised(
+        &self,
+        film: &Film,
+        info: &PictureInfo,
+        denoised: &Denoised,
+    ) -> Result<(), PictureError> {
+        self.write_picture(film, info, Some(denoised))
+    }
+
+    fn write_picture(
+        &self,
+        film: &Film,
+        info: &PictureInfo,
+        denoised: Option<&Denoised>,
+    ) -> Result<(), PictureError> {
+        let mut planes = Planes::of(film);
         let settled = info.display.settle(&planes);
-        let metadata = info.metadata_of(film, &settled);
+        let mut metadata = info.metadata_of(film, &settled);
+        metadata.extend(denoised.map(Denoised::metadata));
         match self.kind {
             OutputKind::Exr => {
-                film::write_exr(&self.path, film, &ExrOptions { metadata, ..Default::default() })?
+                let more =
+                    denoised.map(|d| ("denoised".to_owned(), d.pixels().to_vec())).into_iter().collect();
+                film::write_exr(&self.path, film, &ExrOptions { metadata, more, ..Default::default() })?
             }
             OutputKind::Png => {
+                planes.denoised = denoised.map_or_else(Vec::new, |denoised| denoised.pixels().to_vec());
                 film::write_png(&self.path, film.width(), film.height(), &settled.show(&planes), &metadata)?;
             }
         }

@@ -1,6 +1,6 @@
 use color::{Exposure, ViewTransform, WhiteBalance};
 use scenefile::SceneDesc;
-use scenefile::desc::IntegratorKind;
+use scenefile::desc::{Denoise, IntegratorKind};
 
 /// A part of a picture: left, top, right, bottom; the last two are no more in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,6 +54,8 @@ pub struct Overrides {
     pub white_balance: Option<WhiteBalance>,
     /// View of 8-bit pictures.
     pub view: Option<ViewTransform>,
+    /// Whether noise is taken out of pictures.
+    pub denoise: Option<Denoise>,
     /// Scattering events on a path, at most.
     pub max_depth: Option<u32>,
     /// Grain below which no more passes are needed.
@@ -80,6 +82,7 @@ impl Overrides {
         film.exposure = self.exposure.unwrap_or(film.exposure);
         film.white_balance = self.white_balance.unwrap_or(film.white_balance);
         film.view = self.view.unwrap_or(film.view);
+        film.denoise = self.denoise.unwrap_or(film.denoise);
         let render = &mut desc.render;
         render.integrator = self.integrator.unwrap_or(render.integrator);
         render.seed = self.seed.unwrap_or(render.seed);
@@ -110,13 +113,14 @@ mod tests {
             passes: Some(3),
             seed: Some(9),
             exposure: Some(Exposure::Ev(-1.5)),
+            denoise: Some(Denoise::Require),
             max_depth: Some(2),
             noise: Some(0.02),
             ..Overrides::default()
         };
         overrides.apply(&mut desc);
         assert_eq!(desc.film.size, [101, 57], "101 · 360 / 640 = 56.8");
-        assert_eq!(desc.film.exposure, Exposure::Ev(-1.5));
+        assert_eq!((desc.film.exposure, desc.film.denoise), (Exposure::Ev(-1.5), Denoise::Require));
         assert_eq!(desc.render.integrator, IntegratorKind::Path);
         assert_eq!((desc.render.passes, desc.render.seed, desc.render.max_depth), (3, 9, Some(2)));
         assert_eq!(desc.render.noise, Some(0.02));

@@ -120,6 +120,29 @@ impl Default for Render {
     }
 }
 
+/// Whether noise is taken out of pictures when they are written.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Denoise {
+    /// Pictures are what was rendered.
+    #[default]
+    Off,
+    /// Where Open Image Denoise is found; else as `Off`.
+    Auto,
+    /// Where it is not found, nothing is rendered.
+    Require,
+}
+
+impl Denoise {
+    /// The name in scene files.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Off => "off",
+            Self::Auto => "auto",
+            Self::Require => "require",
+        }
+    }
+}
+
 /// The pixel reconstruction filter's shape.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FilterKind {
@@ -158,6 +181,8 @@ pub struct Film {
     pub view: View,
     /// A look-up table (.cube) for the display colours of 8-bit output.
     pub lut: Option<Sourced<PathBuf>>,
+    /// Whether noise is taken out of pictures when they are written.
+    pub denoise: Denoise,
     /// Layers besides those that every picture has.
     pub layers: Layers,
 }
@@ -182,6 +207,7 @@ impl Default for Film {
             white_balance: WhiteBalance::None,
             view: View::default(),
             lut: None,
+            denoise: Denoise::Off,
             layers: Layers::default(),
         }
     }

@@ -1,7 +1,7 @@
 //! `[render]`, `[film]`, `[camera]`, `[photon_map]`, `[sppm]`, `[vcm]`.
 
 use crate::desc::{
-    Camera, CameraKind, DirectLight, Exposure, Film, FilterKind, FovAxis, IntegratorKind, Layers,
+    Camera, CameraKind, Denoise, DirectLight, Exposure, Film, FilterKind, FovAxis, IntegratorKind, Layers,
     PhotonFilter, PhotonMap, Render, SceneDesc, Sppm, Vcm, VcmTechniques, View, WhiteBalance,
 };
 use crate::diagnostic::{Diagnostic, Report};
@@ -66,12 +66,18 @@ pub(super) fn film(report: &mut Report, r: &Reader<'_>, desc: &mut SceneDesc) {
         let help = format!("[x0, y0, x1, y1]: 0 ≤ x0 < x1 ≤ {width}, 0 ≤ y0 < y1 ≤ {height}");
         report.push(Diagnostic::error("out-of-range", message).at(entry.node.span).help(help));
     }
+    let denoise = r.word(report, "denoise").map(|word| match word {
+        "auto" => Denoise::Auto,
+        "require" => Denoise::Require,
+        _ => Denoise::Off,
+    });
     if let (Some(size), Some(crop), Some(filter), Some(filter_radius), Some(layers)) =
         (size, crop, filter, filter_radius, layers)
-        && let (Some(exposure), Some(white_balance), Some(view), Some(lut)) =
-            (exposure, white_balance, view, lut)
+        && let (Some(exposure), Some(white_balance), Some(view), Some(lut), Some(denoise)) =
+            (exposure, white_balance, view, lut, denoise)
     {
-        desc.film = Film { size, crop, filter, filter_radius, exposure, white_balance, view, lut, layers };
+        desc.film =
+            Film { size, crop, filter, filter_radius, exposure, white_balance, view, lut, denoise, layers };
     }
 }
 

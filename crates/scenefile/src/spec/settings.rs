@@ -81,6 +81,12 @@ const BALANCES: [Word; 2 + color::Illuminant::ALL.len()] = {
     words
 };
 
+const DENOISE: &[Word] = &[
+    word("off", "Pictures are what was rendered."),
+    word("auto", "By Open Image Denoise where it is found."),
+    word("require", "The same; where it is not found, nothing is rendered."),
+];
+
 const LAYERS: &[Word] = &[
     word(
         "techniques",
@@ -146,6 +152,13 @@ pub const FILM: Section = Section {
             "",
             Absent("none"),
             "PNG only: a look-up table of one or three dimensions for display colours, applied after the view.",
+        ),
+        key(
+            "denoise",
+            Kind::Word(DENOISE),
+            "",
+            Preset::Word("off"),
+            "Whether noise is taken out of pictures when they are written; EXR gets the layer `denoised`.",
         ),
         key(
             "layers",

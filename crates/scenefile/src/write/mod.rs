@@ -121,6 +121,7 @@ fn film(desc: &SceneDesc) -> Fields {
     if let Some(lut) = &film.lut {
         f.text("lut", &lut.to_string_lossy());
     }
+    f.word("denoise", film.denoise.name());
     let layers = [("techniques", film.layers.techniques), ("lights", film.layers.lights)];
     let wanted: Vec<_> = layers.into_iter().filter(|(_, wanted)| *wanted).collect();
     if !wanted.is_empty() {
