@@ -497,19 +497,66 @@ fn cameras_and_lights() {
     else {
         panic!()
     };
-    assert_eq!((position, amount), ([1.0, 2.0, 3.0], PointAmount::Intensity([10.0, 5.0, 0.0])));
+    let amount_at = |cd: f64| (cd / 683.0) as f32;
+    let expected = PointAmount::Intensity([amount_at(10.0), amount_at(5.0), 0.0]);
+    assert_eq!((position, amount), ([1.0, 2.0, 3.0], expected));
     assert!(
         (direction[1] + 1.0).abs() < 1e-6
             && (cone_angle - 57.29578).abs() < 1e-4
             && (falloff_angle - 28.64789).abs() < 1e-4
     );
     assert!(
-        matches!(desc.lights[1].kind, LightKind::Directional { direction, irradiance } if direction == [0.0, 0.0, -1.0] && irradiance == [3.0; 3])
+        matches!(desc.lights[1].kind, LightKind::Directional { direction, irradiance } if direction == [0.0, 0.0, -1.0] && irradiance == [amount_at(3.0); 3])
     );
     assert!(matches!(desc.lights[2].kind, LightKind::Point { .. }));
     let flat = rest.replace("\"camera\":0", "\"camera\":1");
     let desc = warned(Files::new().load(&bin.scene(&flat)), "a light's range");
     assert_eq!(desc.camera.as_ref().unwrap().kind, CameraKind::Orthographic { extent: 2.0 });
+}
+
+#[test]
+fn what_shines_keeps_to_the_lamps_of_its_exporter() {
+    let mut bin = Bin::default();
+    bin.vec3(&TRIANGLE);
+    let scene = |generator: &str, lamps: &str| {
+        let rest = format!(
+            r#""nodes":[{{"mesh":0}}],"meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}},"material":0}}]}}],
+            "materials":[{{"emissiveFactor":[1,0.5,0],"extensions":{{"KHR_materials_emissive_strength":
+            {{"emissiveStrength":20}}}}}}],"extensions":{{"KHR_lights_punctual":{{"lights":[{lamps}]}}}}"#
+        );
+        let text = bin
+            .scene(&rest)
+            .replace(r#""version":"2.0""#, &format!(r#""version":"2.0","generator":"{generator}""#));
+        assert!(text.contains("generator"));
+        let loaded = Files::new().load(&text);
+        let desc = loaded.desc.unwrap();
+        let emission = desc.objects[0].emission.as_ref().unwrap();
+        emission.amount
+    };
+    let radiance = |x: f64| EmissionAmount::Radiance([x, x / 2.0, 0.0].map(|x| x as f32));
+    let lamp = r#"{"type":"point","intensity":54351.413}"#;
+    assert_eq!(scene("Khronos glTF Blender I/O v4.5.51", lamp), radiance(20.0));
+    assert_eq!(scene("by hand", lamp), radiance(20.0 / 683.0));
+    assert_eq!(scene("by hand", ""), radiance(20.0));
+}
+
+#[test]
+fn spots_of_blender_have_its_edge() {
+    // A cone of 60° with a blend of 0.3 as Blender 4.5 writes it: light rises from cos 30° = 0.866 over 0.3 · (1 − 0.866).
+    let mut bin = Bin::default();
+    bin.vec3(&TRIANGLE);
+    let rest = r#""nodes":[{"mesh":0},{"extensions":{"KHR_lights_punctual":{"light":0}}}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot",
+        "intensity":54351.413,"spot":{"innerConeAngle":0.36651914687634957,"outerConeAngle":0.5235987901687622}}]}}"#;
+    let falloff = |generator: &str| {
+        let asset = format!(r#""version":"2.0","generator":"{generator}""#);
+        let desc = Files::new().load(&bin.scene(rest).replace(r#""version":"2.0""#, &asset)).desc.unwrap();
+        let LightKind::Spot { falloff_angle, .. } = desc.lights[0].kind else { panic!() };
+        falloff_angle
+    };
+    let inner = (0.866_025_4f32 + 0.3 * (1.0 - 0.866_025_4)).acos().to_degrees();
+    assert!((falloff("Khronos glTF Blender I/O v4.5.51") - (30.0 - inner)).abs() < 1e-3);
+    assert!((falloff("by hand") - 9.0).abs() < 1e-3);
 }
 
 #[test]

@@ -1,7 +1,9 @@
 //! Lights of nodes: `KHR_lights_punctual`. They shine along −z of their nodes.
 //!
-//! Candela, lux and nits are taken as W/sr, W/m² and W/(sr·m²) of each channel: pictures have the brightness that other
-//! viewers of such files show.
+//! Candela and lux become W/sr and W/m² of each channel by 683 lm a watt, which Blender's exporter multiplies its watts by
+//! (and the extension's notes on implementation name): a lamp of Blender comes back as it was. In files of Blender surfaces
+//! shine in W/(sr·m²) nevertheless; in others with lamps nits are taken alike, so that both keep their proportions. Without
+//! lamps nothing is converted: white that is lit by our own studio and a surface that shines by 1 look alike.
 
 use scenefile::Sourced;
 use scenefile::desc::{Light, LightKind, PointAmount};
@@ -11,7 +13,26 @@ use super::fault::{Fault, Known};
 use super::json::Value;
 use crate::matrix::{Matrix, narrow, times, unit};
 
+/// Lumens of a watt, as exporters mean it: of green light of 555 nm.
+const LUMENS_PER_WATT: f64 = 683.0;
+
 impl<'t> Importer<'t> {
+    /// Whether Blender wrote the file.
+    pub(super) fn is_of_blender(&self) -> bool {
+        let generator =
+            self.source.root.get("asset").and_then(|asset| asset.text("generator").ok().flatten());
+        generator.is_some_and(|name| name.contains("Blender"))
+    }
+
+    /// W/(sr·m²) of a surface that shines by 1.
+    pub(super) fn glow(&self) -> Known<f64> {
+        let lamps = match self.source.root.extension("KHR_lights_punctual") {
+            Some(extension) => extension.array("lights")?,
+            None => &[],
+        };
+        Ok(if lamps.is_empty() || self.is_of_blender() { 1.0 } else { 1.0 / LUMENS_PER_WATT })
+    }
+
     /// Adds the light of a node, if it has one.
     pub(super) fn light(&mut self, node: &'t Value<'t>, world: &Matrix) -> Known<()> {
         let Some(name) = node.extension("KHR_lights_punctual") else { return Ok(()) };
@@ -23,7 +44,7 @@ impl<'t> Importer<'t> {
         let wrong = |text: String| Fault::new("out-of-range", text, light.span());
         let color = light.numbers("color", [1.0; 3])?;
         let strength = light.number("intensity", 1.0)?;
-        let amount = times(color, strength);
+        let amount = times(color, strength / LUMENS_PER_WATT);
         if amount.iter().any(|x| *x < 0.0 || !(*x as f32).is_finite()) {
             return Err(wrong("the light's intensity is not ≥ 0".into()));
         }
@@ -54,6 +75,7 @@ impl<'t> Importer<'t> {
                         "the spot's angles are {inner} and {outer}, not 0 ≤ inner < outer ≤ π/2"
                     )));
                 }
+                let inner = if self.is_of_blender() { inner_of_blender(inner, outer) } else { inner };
                 LightKind::Spot {
                     position,
                     direction: narrow(direction()?),
@@ -74,4 +96,11 @@ impl<'t> Importer<'t> {
         self.desc.lights.push(Sourced::at(Light { name, light_group: None, kind }, node.span()));
         Ok(())
     }
+}
+
+/// Where the edge of a spot of Blender begins to darken. Its exporter writes (1 − blend) · outer; the light itself rises, as
+/// ours does, smoothly in the cosine, over blend · (1 − cos outer): so it is measured of Blender 4.5.
+fn inner_of_blender(written: f64, outer: f64) -> f64 {
+    let blend = 1.0 - written / outer;
+    (outer.cos() + blend * (1.0 - outer.cos())).clamp(-1.0, 1.0).acos().min(outer)
 }

@@ -96,6 +96,8 @@ impl<'t> Importer<'t> {
                 ColorDesc::Rgb(rgb) => (*rgb, None),
                 ColorDesc::Texture(name) => ([1.0; 3], Some(name.clone())),
             };
+            let glow = self.glow()?;
+            let amount = amount.map(|x| (f64::from(x) * glow) as f32);
             emission = Some(Emission { amount: EmissionAmount::Radiance(amount), texture, two_sided });
             MaterialKind::Diffuse { color: 0.0.into() }.into()
         } else {
@@ -143,7 +145,7 @@ impl<'t> Importer<'t> {
         Ok(())
     }
 
-    /// `emissiveFactor`, `emissiveTexture` and `KHR_materials_emissive_strength`, in nits.
+    /// `emissiveFactor`, `emissiveTexture` and `KHR_materials_emissive_strength`; see [`glow`](Self::glow).
     fn emission(&mut self, value: &'t Value<'t>) -> Known<Option<Emission>> {
         let strength = match value.extension("KHR_materials_emissive_strength") {
             Some(extension) => extension.number("emissiveStrength", 1.0)?,
@@ -157,9 +159,11 @@ impl<'t> Importer<'t> {
             return Ok(None);
         }
         self.shines |= factor.iter().any(|x| *x > 1.0);
+        let glow = self.glow()?;
+        let radiance = factor.map(|x| (f64::from(x) * glow) as f32);
         let texture =
             value.get("emissiveTexture").and_then(|info| self.texture(info, Reading::color([1.0; 3])));
-        Ok(Some(Emission { amount: EmissionAmount::Radiance(factor), texture, two_sided: false }))
+        Ok(Some(Emission { amount: EmissionAmount::Radiance(radiance), texture, two_sided: false }))
     }
 }
 
