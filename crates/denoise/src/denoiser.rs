@@ -77,8 +77,8 @@ impl Denoiser {
     /// The picture without noise. Albedo and normals are denoised before it, each by itself, so that noise in them (depth
     /// of field, glass) does not come back through them.
     ///
-    /// Values that are not finite count as 0, negative radiance as 0. A pixel of which nothing is known, radiance, albedo
-    /// and normal all 0, stays 0: it was not rendered, or shows nothing.
+    /// Values that are not finite count as 0, negative radiance as 0. Pixels outside of the smallest window that holds all of
+    /// which something is known (radiance, albedo or normal) stay 0: they were not rendered, or show nothing.
     ///
     /// # Errors
     /// Where sizes differ, or the library fails.
@@ -104,9 +104,10 @@ impl Denoiser {
         let flags: &[_] = if clean.is_empty() { &[c"hdr"] } else { &[c"hdr", c"cleanAux"] };
         let mut out = vec![[0.0; 3]; pixels];
         device.filter(size, &inputs, flags, &mut out).map_err(DenoiseError::Failed)?;
+        let planes = features.iter().map(|(_, plane)| plane).chain([&beauty]);
+        let window = Window::of(size[0], planes);
         for (i, pixel) in out.iter_mut().enumerate() {
-            let seen = features.iter().filter_map(|(_, plane)| plane.get(i)).chain([&beauty[i]]);
-            if seen.flatten().all(|&v| v == 0.0) {
+            if !window.contains(i % size[0], i / size[0]) {
                 *pixel = [0.0; 3];
             } else if pixel.iter().any(|v| !v.is_finite()) {
                 *pixel = beauty[i];
@@ -121,6 +122,31 @@ impl fmt::Display for Denoiser {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let [major, minor, patch] = self.version;
         write!(f, "Open Image Denoise {major}.{minor}.{patch}")
+    }
+}
+
+/// Columns and rows of a picture, the ends left out.
+struct Window {
+    columns: std::ops::Range<usize>,
+    rows: std::ops::Range<usize>,
+}
+
+impl Window {
+    /// The smallest that holds all pixels that are not 0 in one of the planes.
+    fn of<'a>(width: usize, planes: impl Iterator<Item = &'a Vec<[f32; 3]>>) -> Self {
+        let mut window = Self { columns: usize::MAX..0, rows: usize::MAX..0 };
+        for plane in planes {
+            for (i, _) in plane.iter().enumerate().filter(|(_, pixel)| **pixel != [0.0; 3]) {
+                let (x, y) = (i % width, i / width);
+                window.columns = window.columns.start.min(x)..window.columns.end.max(x + 1);
+                window.rows = window.rows.start.min(y)..window.rows.end.max(y + 1);
+            }
+        }
+        window
+    }
+
+    fn contains(&self, x: usize, y: usize) -> bool {
+        self.columns.contains(&x) && self.rows.contains(&y)
     }
 }
 
@@ -238,6 +264,16 @@ mod tests {
         let images = Images { size: [2, 1], beauty: &beauty, albedo: &albedo, normal: &normal };
         // Each feature gets 1/4, the picture 100; albedo is at most 1, what is negative or not finite is 0.
         assert_eq!(denoiser.denoise(&images), Ok(vec![[102.0, 101.5, 99.5], [0.0; 3]]));
+    }
+
+    #[test]
+    fn black_pixels_within_the_picture_are_denoised_too() {
+        let denoiser = denoiser(PLAYED).unwrap();
+        let mut beauty = [[0.0; 3]; 5];
+        (beauty[1], beauty[3]) = ([1.0; 3], [2.0; 3]);
+        let images = Images { size: [5, 1], beauty: &beauty, albedo: &[], normal: &[] };
+        let red: Vec<f32> = denoiser.denoise(&images).unwrap().iter().map(|p| p[0]).collect();
+        assert_eq!(red, [0.0, 1.25, 0.25, 2.25, 0.0]);
     }
 
     #[test]
