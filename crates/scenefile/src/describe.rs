@@ -92,6 +92,9 @@ pub(crate) const PAGES: &[(&str, &str, &str)] = &[
     ),
 ];
 
+/// What the page of presets is about.
+const PRESETS: &str = "Materials by name: metals, glass, gems, liquids, paints and more.";
+
 /// Every topic and what it is about, in the order of the reference.
 pub fn topics() -> Vec<(&'static str, &'static str)> {
     let mut out: Vec<(&str, &str)> = Vec::new();
@@ -100,12 +103,13 @@ pub fn topics() -> Vec<(&'static str, &'static str)> {
         out.extend(section.variants().iter().map(|variant| (variant.name, variant.doc)));
     }
     out.extend(PAGES.iter().map(|(name, doc, _)| (*name, *doc)));
+    out.push(("presets", PRESETS));
     out.push(("errors", "What the codes of errors mean."));
     out
 }
 
 /// The reference of a topic: a section ("camera"), a kind ("sphere", "materials.glass"), a key ("camera.fov"), or
-/// one of the pages "colors", "units", "formats", "overrides", "errors". An empty topic lists all. Where a word or several are none of these,
+/// one of the pages "colors", "units", "formats", "overrides", "presets", "errors", or a preset ("gold"). An empty topic lists all. Where a word or several are none of these,
 /// what speaks of them, the best first.
 ///
 /// Plain text of at most about 100 columns that ends with a newline.
@@ -121,6 +125,9 @@ pub fn describe(topic: &str) -> Result<String, UnknownTopic> {
         let width = column(CODES.iter().map(|(code, _)| *code));
         return Ok(CODES.iter().map(|(code, doc)| format!("{code:<width$}{doc}\n")).collect());
     }
+    if ["presets", "preset", "materials.preset"].contains(&name) {
+        return Ok(crate::preset::page());
+    }
     if let Some((_, doc, text)) = PAGES.iter().find(|page| page.0 == name) {
         return Ok(format!("{doc}\n\n{text}"));
     }
@@ -132,6 +139,12 @@ pub fn describe(topic: &str) -> Result<String, UnknownTopic> {
         if let Some(variant) = section.variant(second) {
             return Ok(variant_text(section, variant));
         }
+    }
+    if let ("" | "presets", Some(preset)) = (first, crate::preset::find(second)) {
+        let others = if first.is_empty() { search(topic) } else { None };
+        // Two lines of introduction, and the preset itself.
+        let others = others.filter(|text| text.lines().count() > 3);
+        return Ok(others.into_iter().fold(preset.text(), |text, others| text + "\n" + &others));
     }
     let holders = |section: &&&Section| section.name == first || section.variant(first).is_some();
     if !first.is_empty()
@@ -193,6 +206,7 @@ fn overview() -> String {
     for (name, doc, _) in PAGES {
         out += &format!("{name:<20}{doc}\n");
     }
+    out += &format!("{:<20}{}\n", "presets", PRESETS);
     out += &format!("{:<20}{}\n", "errors", "What the codes of errors mean.");
     out
 }

@@ -108,6 +108,7 @@ pub const CODES: &[(&str, &str)] = &[
     ("conflict", "Two keys that exclude each other are both given."),
     ("duplicate-name", "Two objects, lights or instances have the same name."),
     ("unknown-material", "No material has this name."),
+    ("unknown-preset", "No preset of materials has this name."),
     ("unknown-substance", "No metal, glass or liquid has this name."),
     ("unknown-texture", "No texture has this name."),
     ("unknown-group", "No group has this name."),

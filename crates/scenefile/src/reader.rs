@@ -73,12 +73,17 @@ impl<'a> Reader<'a> {
             if report.count_if_full() {
                 return None;
             }
+            let preset = self.section.name == "materials";
+            let or = if preset { "; or name a `preset`" } else { "" };
             let other = nearest(switch.key, self.table.entries.iter().map(|entry| entry.key.as_str()));
             let mut error =
                 Diagnostic::error("missing-key", format!("missing `{}` in {}", switch.key, self.what))
                     .at(self.span)
-                    .help(format!("it is {}", either(&names().collect::<Vec<_>>())));
-            if let Some(other) = other {
+                    .help(format!("it is {}{or}", either(&names().collect::<Vec<_>>())));
+            let keys = || self.table.entries.iter().map(|entry| entry.key.as_str());
+            if let Some(other) = nearest(crate::preset::KEY, keys()).filter(|_| preset) {
+                error = error.help(format!("did you mean `{}` by `{other}`?", crate::preset::KEY));
+            } else if let Some(other) = other {
                 error = error.help(format!("did you mean `{}` by `{other}`?", switch.key));
             }
             report.push(error);

@@ -1,6 +1,7 @@
 //! Looking for words in the reference of scene files.
 
 use crate::describe::PAGES;
+use crate::preset::presets;
 use crate::spec::{Key, Kind, SECTIONS, Section, Variant};
 
 /// Finds, at most.
@@ -204,6 +205,16 @@ fn entries() -> Vec<Entry> {
     let mut all = Vec::new();
     for (name, doc, text) in PAGES {
         all.push(Entry { topic: (*name).into(), name, kinds: Vec::new(), doc, values: Vec::new(), text });
+    }
+    for preset in presets() {
+        all.push(Entry {
+            topic: format!("presets.{}", preset.name),
+            name: preset.name,
+            kinds: Vec::new(),
+            doc: preset.doc,
+            values: Vec::new(),
+            text: preset.source,
+        });
     }
     for section in SECTIONS {
         let topic = section.name.to_owned();

@@ -177,7 +177,7 @@ power = 2
                |
             14 | [materials.red]
                | ^^^^^^^^^^^^^^^
-               = help: it is "diffuse", "phong", "mirror", "dielectric", "conductor", "plastic", "rough-diffuse", "diffuse-transmission", "sheen", "thin-dielectric", "coated-diffuse", "coated-conductor", "principled" or "mix"
+               = help: it is "diffuse", "phong", "mirror", "dielectric", "conductor", "plastic", "rough-diffuse", "diffuse-transmission", "sheen", "thin-dielectric", "coated-diffuse", "coated-conductor", "principled" or "mix"; or name a `preset`
 
             error[unknown-key]: unknown key `roughness` in material `shiny`
               --> box.toml:18:1
@@ -261,7 +261,7 @@ power = 2
             47 | normal = [0, 0, 0]
                |          ^^^^^^^^^
 
-            error[wrong-type]: `material` of object 4 must be the name of a material or { kind = … }, not 3
+            error[wrong-type]: `material` of object 4 must be the name of a material, { kind = … } or { preset = "NAME" }, not 3
               --> box.toml:48:12
                |
             48 | material = 3

@@ -131,6 +131,9 @@ impl Checker<'_> {
         };
         let help = match nearest(name, known.keys().map(String::as_str)) {
             Some(near) => format!("did you mean {}?", quoted(near)),
+            None if noun == "material" && crate::preset::find(name).is_some() => {
+                format!("there is a preset of this name: {{ preset = \"{}\" }}", name.value)
+            }
             None if known.is_empty() => format!("the scene has no {noun}s; add [{noun}s.NAME]"),
             None => {
                 let all: Vec<_> = known.keys().take(12).map(|name| quoted(name)).collect();

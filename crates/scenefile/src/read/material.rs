@@ -6,6 +6,7 @@ use crate::desc::{
 };
 use crate::diagnostic::{Diagnostic, Report};
 use crate::document::{Node, Value};
+use crate::preset;
 use crate::reader::{Reader, as_table};
 use crate::source::Sourced;
 use crate::spec;
@@ -17,7 +18,8 @@ pub(super) fn material(report: &mut Report, what: String, node: &Node) -> Materi
 
 fn read_material(report: &mut Report, what: String, node: &Node) -> Option<Material> {
     let table = as_table(report, &what, node)?;
-    let r = Reader::new(report, &spec::MATERIALS, what, table, node.span);
+    let table = preset::resolved(report, &what, table)?;
+    let r = Reader::new(report, &spec::MATERIALS, what, &table, node.span);
     let normal_map = r.optional_text(report, "normal_map");
     let opacity = r.float_desc(report, "opacity");
     let opacity_cutoff = r.optional_number(report, "opacity_cutoff");
@@ -342,7 +344,7 @@ fn reference_at(report: &mut Report, r: &Reader<'_>, name: &str) -> Option<Mater
             crate::convert::wrong_type(
                 report,
                 &r.label(name),
-                "the name of a material or { kind = … }",
+                "the name of a material, { kind = … } or { preset = \"NAME\" }",
                 node,
             );
             Some(Material::diffuse(0.5).into())

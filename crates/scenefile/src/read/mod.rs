@@ -12,6 +12,7 @@ use crate::desc::{Group, SceneDesc};
 use crate::diagnostic::{Diagnostic, Report, quoted};
 use crate::document::{Entry, Node, Table, Value};
 use crate::nearest::nearest;
+use crate::preset;
 use crate::reader::{Reader, as_table};
 use crate::source::{Sourced, Span};
 use crate::spec::{self, Form, SECTIONS, Section};
@@ -126,7 +127,7 @@ fn each_named(
     for entry in &table.entries {
         let mut keys =
             section.keys.iter().chain(section.variants().iter().flat_map(|variant| variant.keys()));
-        let switch = section.switch.is_some_and(|switch| switch.key == entry.key);
+        let switch = section.switch.is_some_and(|switch| switch.key == entry.key) || entry.key == preset::KEY;
         let value = !matches!(entry.node.value, Value::Table(_));
         if value && (switch || keys.any(|key| key.name == entry.key)) {
             let message = format!("a {} without a name", section.noun);

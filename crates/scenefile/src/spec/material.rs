@@ -183,7 +183,7 @@ pub const MATERIALS: Section = Section {
     name: "materials",
     noun: "material",
     form: Form::Named,
-    doc: "Materials, to be named by objects.",
+    doc: "Materials, to be named by objects. `preset = \"NAME\"` stands for the keys of a known one: see presets.",
     switch: Some(Switch {
         key: "kind",
         preset: None,

@@ -338,7 +338,7 @@ impl Kind {
             Self::Ior(range) => format!("{} or a name", with("a number", range)),
             Self::File(extensions) => format!("a file name (.{})", extensions.join(", .")),
             Self::Texture => "the name of a texture".into(),
-            Self::Material => "the name of a material or { kind = … }".into(),
+            Self::Material => "the name of a material, { kind = … } or { preset = \"NAME\" }".into(),
             Self::Group => "the name of a group".into(),
             Self::Transform => "a list of steps ({ translate = [x, y, z] }, …)".into(),
             Self::Matrix => "16 numbers".into(),
