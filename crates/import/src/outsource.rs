@@ -233,7 +233,7 @@ fn rebase(desc: &mut SceneDesc, to: &Path) {
     }
     let groups = desc.groups.values_mut().flat_map(|group| &mut group.value.objects);
     for object in desc.objects.iter_mut().chain(groups) {
-        if let Shape::Mesh { file, .. } = &mut object.value.shape.value {
+        if let Some(file) = object.value.shape.value.file_mut() {
             moved(&mut file.value);
         }
     }

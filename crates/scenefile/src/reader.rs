@@ -458,6 +458,16 @@ impl<'a> Reader<'a> {
         self.take(report, name, read, |_| Some(Vec::new()))
     }
 
+    pub(crate) fn optional_rows(&self, report: &mut Report, name: &str) -> Option<Option<Vec<Vec<f32>>>> {
+        self.take_optional(report, name, |report, what, key, node| {
+            convert::list(report, what, &key.kind.text(), node, |report, what, row| {
+                convert::list(report, what, "a row of numbers", row, |report, what, item| {
+                    convert::number(report, what, ANY, item)
+                })
+            })
+        })
+    }
+
     pub(crate) fn indices(&self, report: &mut Report, name: &str) -> Option<Vec<[u32; 3]>> {
         let read = |report: &mut Report, what: &str, key: &Key, node: &Node| {
             convert::list(report, what, &key.kind.text(), node, convert::indices)

@@ -234,7 +234,7 @@ power = 2
                |
             34 | shape = "spere"
                |         ^^^^^^^
-               = help: did you mean "sphere"? There are "sphere", "disk", "quad", "mesh", "triangles", "box", "teapot", "lathe", "cylinder", "torus", "icosphere", "band", "ring", "coffee-cup", "wine-glass", "wine", "cone", "capsule", "rounded-box", "round-brilliant", "water-surface"
+               = help: did you mean "sphere"? There are "sphere", "disk", "quad", "mesh", "triangles", "box", "teapot", "lathe", "cylinder", "torus", "icosphere", "band", "ring", "coffee-cup", "wine-glass", "wine", "cone", "capsule", "rounded-box", "round-brilliant", "water-surface", "height-field"
 
             error[out-of-range]: `radius` of object 2 must be a number > 0, not -1
               --> box.toml:37:10

@@ -98,6 +98,8 @@ fn sample(key: &Key, second: bool) -> String {
         Kind::Transform => "[{ translate = [1, 2, 3] }]".into(),
         Kind::Matrix => "[2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]".into(),
         Kind::Points(min, _) => points(min.clamp(3, 4)),
+        Kind::Rows if second => "[[1, 0], [2, 1], [3, 3]]".into(),
+        Kind::Rows => "[[1, 0], [2, 1]]".into(),
         Kind::Pairs if second => "[[1, 0], [2, 1], [3, 3]]".into(),
         Kind::Pairs => "[[1, 0], [2, 1], [2, 3]]".into(),
         Kind::VertexColors => "[[0.5, 0.25, 0], [1, 1, 1, 0.5], [0, 0, 0]]".into(),
@@ -114,6 +116,7 @@ fn sample(key: &Key, second: bool) -> String {
 fn companions(section: &Section, kind: &str, key: &str) -> (&'static [&'static str], &'static str) {
     match (section.name, kind, key) {
         ("objects", "quad", "corners") => (&["origin", "edge_u", "edge_v"], ""),
+        ("objects", "height-field", "file") => (&["heights"], ""),
         ("objects", _, "radiance" | "power" | "lumens" | "nits") => (&["material"], ""),
         ("objects", _, "color" | "temperature") => (&[], "power = 3\n"),
         ("objects", _, "emission_texture" | "two_sided_emission" | "light_group") => (&[], "radiance = 3\n"),
@@ -149,8 +152,18 @@ fn companions(section: &Section, kind: &str, key: &str) -> (&'static [&'static s
 fn scene(section: &Section, variant: Option<&Variant>, more: &str, without: &[&str]) -> String {
     let kind = variant.map_or("", |variant| variant.name);
     let keys: Vec<&Key> = section.keys.iter().chain(variant.into_iter().flat_map(Variant::keys)).collect();
-    let essential =
-        ["edge_u", "edge_v", "origin", "material", "intensity", "irradiance", "direction", "n", "k"];
+    let essential = [
+        "edge_u",
+        "edge_v",
+        "origin",
+        "material",
+        "intensity",
+        "irradiance",
+        "direction",
+        "n",
+        "k",
+        "heights",
+    ];
     let mut lines = String::new();
     for key in keys {
         let needed = key.preset == Preset::Required

@@ -344,6 +344,16 @@ impl Dice {
                 lower_half_length: 0.25 + 0.5 * self.unit(),
                 culet: 0.5 * self.unit(),
             }),
+            21 => Shape::HeightField(HeightField {
+                center,
+                size: [radius, self.positive()],
+                source: HeightSource::Rows(vec![
+                    vec![self.number(), self.number()],
+                    vec![0.0, self.number()],
+                ]),
+                height: self.number(),
+                depth: self.coin().then(|| self.positive()),
+            }),
             20 => Shape::WaterSurface(WaterSurface {
                 center,
                 size: [radius, self.positive()],

@@ -153,10 +153,7 @@ fn slide(light: &Sourced<Light>) -> Option<&ImageSource> {
 pub(crate) fn files(desc: &SceneDesc) -> BTreeSet<&Path> {
     let pictures = desc.textures.values().filter_map(picture).chain(desc.lights.iter().filter_map(slide));
     let pictures = pictures.filter_map(ImageSource::file).map(|file| file.value.as_path());
-    let meshes = all_objects(desc).filter_map(|object| match &object.shape.value {
-        Shape::Mesh { file, .. } => Some(file.value.as_path()),
-        _ => None,
-    });
+    let meshes = all_objects(desc).filter_map(|object| object.shape.file()).map(|file| file.value.as_path());
     let lamps = desc.lights.iter().filter_map(|light| match &light.kind {
         LightKind::Profile { file, .. } => Some(file.value.as_path()),
         _ => None,

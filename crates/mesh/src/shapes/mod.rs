@@ -6,6 +6,7 @@ mod field;
 mod flat;
 mod gem;
 mod grid;
+mod height;
 mod lathe;
 mod outline;
 mod patches;
@@ -17,6 +18,7 @@ mod water;
 
 pub use flat::{annulus, box_, disk, quad};
 pub use gem::{Brilliant, round_brilliant};
+pub use height::{HeightField, height_field};
 pub use lathe::lathe;
 pub use outline::Profile;
 pub use round::{cone, cylinder, icosphere, torus, uv_sphere};

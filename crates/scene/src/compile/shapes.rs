@@ -1,10 +1,11 @@
 use std::sync::Arc;
 
 use math::{Affine3A, Bounds3, Frame, Mat4, PI, Quat, Transform, Vec2, Vec3};
-use mesh::{MeshError, TriangleMesh, shapes};
+use mesh::{MeshError, Place, TriangleMesh, shapes};
 use scenefile::desc::{self, Normals, SceneDesc, Shape as ShapeDesc, TeapotPart, TransformStep};
 use scenefile::{Diagnostic, Sourced, Span};
 
+use crate::texture::{Encoding, Picture, TextureError, Wanted};
 use crate::{Shape, Target};
 
 /// A shape where it stands, before it becomes an object.
@@ -120,6 +121,7 @@ fn solid(desc: &SceneDesc, shape: &ShapeDesc) -> Result<Solid, MeshError> {
         }
         ShapeDesc::RoundBrilliant(gem) => brilliant(gem)?,
         ShapeDesc::WaterSurface(water) => water_surface(water)?,
+        ShapeDesc::HeightField(field) => height_field(desc, field)?,
         ShapeDesc::Torus { center, axis, major_radius, minor_radius, segments, tube_segments } => {
             shapes::torus(*major_radius, *minor_radius, *segments, *tube_segments)
                 .transformed(&upright(v(*center), v(*axis)))
@@ -154,6 +156,30 @@ fn brilliant(gem: &desc::Brilliant) -> Result<TriangleMesh, MeshError> {
         culet: gem.culet,
     })?;
     Ok(mesh.transformed(&upright(gem.center.into(), gem.axis.into())))
+}
+
+fn height_field(desc: &SceneDesc, field: &desc::HeightField) -> Result<TriangleMesh, MeshError> {
+    let (columns, mut heights) = match &field.source {
+        desc::HeightSource::Rows(rows) => (rows.first().map_or(0, Vec::len), rows.concat()),
+        desc::HeightSource::Picture(file) => {
+            let path = desc.resolve(file);
+            let picture = Picture::from_path(&path, Encoding::Linear, Wanted::Color).map_err(|e| {
+                let message = match e {
+                    TextureError::Unreadable(_, error) => format!("cannot be read: {error}"),
+                    error => error.to_string(),
+                };
+                let help = "heights are PNG, TIFF, OpenEXR, PFM or another picture".to_owned();
+                MeshError { path: Some(path.clone()), place: Place::Whole, message, help }
+            })?;
+            let [columns, rows] = picture.size();
+            let mean = |i: usize| picture.pixel(i).map(f64::from).iter().sum::<f64>() / 3.0;
+            (columns, (0..columns * rows).map(|i| mean(i) as f32).collect())
+        }
+    };
+    heights.iter_mut().for_each(|h| *h *= field.height);
+    let (size, depth) = (field.size, field.depth);
+    let mesh = shapes::height_field(&shapes::HeightField { size, columns, heights: &heights, depth })?;
+    Ok(place(mesh, Affine3A::from_translation(field.center.into())))
 }
 
 fn water_surface(water: &desc::WaterSurface) -> Result<TriangleMesh, MeshError> {
@@ -441,6 +467,36 @@ mod tests {
         assert_eq!((body.bounds().min, body.bounds().max.x), (Vec3::new(4.0, 1.0, -2.0), 6.0));
         let coarse = desc::WaterSurface { resolution: 8, ..water };
         assert!(solid(&SceneDesc::default(), &ShapeDesc::WaterSurface(coarse)).is_err());
+    }
+
+    #[test]
+    fn heights_are_the_numbers_of_a_picture() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("h.png");
+        let dark = image::ImageBuffer::from_fn(3, 2, |x, y| image::Luma([(x * 16384 + y * 8192) as u16]));
+        image::DynamicImage::ImageLuma16(dark).save(&file).unwrap();
+        let desc = SceneDesc { base: folder.path().to_owned(), ..SceneDesc::default() };
+        let of = |name: &str| desc::HeightField {
+            center: [0.0, 5.0, 0.0],
+            size: [2.0, 1.0],
+            source: desc::HeightSource::Picture(std::path::PathBuf::from(name).into()),
+            height: 2.0,
+            depth: Some(0.5),
+        };
+        let Ok(Solid::Mesh(body)) = solid(&desc, &ShapeDesc::HeightField(of("h.png"))) else { panic!() };
+        assert!(body.is_closed() && body.signed_volume() > 0.0);
+        // 16 bits without a curve: the middle of the back and of the front.
+        for (at, height) in
+            [(Vec3::new(0.0, 0.0, -0.5), 16384.0), (Vec3::new(0.0, 0.0, 0.5), 16384.0 + 8192.0)]
+        {
+            let wanted = at + Vec3::Y * (5.0 + 2.0 * height / 65535.0);
+            assert!(body.positions.iter().any(|p| p.distance(wanted) < 1e-5), "{wanted}");
+        }
+        std::fs::write(folder.path().join("broken.png"), "no picture").unwrap();
+        for name in ["broken.png", "none.png"] {
+            let error = solid(&desc, &ShapeDesc::HeightField(of(name))).unwrap_err().to_string();
+            assert!(error.contains(name), "{error}");
+        }
     }
 
     #[test]

@@ -9,8 +9,8 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
 use crate::desc::{
-    ColorDesc, EmissionAmount, FloatDesc, ImageSource, LightKind, MaterialRef, Object, PointAmount,
-    SceneDesc, Shape, Texture, TransformStep, Triple,
+    ColorDesc, EmissionAmount, FloatDesc, HeightSource, ImageSource, LightKind, MaterialRef, Object,
+    PointAmount, SceneDesc, Shape, Texture, TransformStep, Triple,
 };
 use crate::diagnostic::{Diagnostic, Report, quoted};
 use crate::nearest::nearest;
@@ -268,6 +268,11 @@ impl Checker<'_> {
         }
         if let Shape::Mesh { file, .. } = &object.shape.value {
             self.file(report, what, file, extensions(OBJECTS.variant("mesh")));
+        }
+        if let Shape::HeightField(field) = &object.shape.value
+            && let HeightSource::Picture(file) = &field.source
+        {
+            self.file(report, what, file, extensions(OBJECTS.variant("height-field")));
         }
         if let Some((code, fault)) = shape::shape_fault(&object.shape) {
             let light = if object.emission.is_some() && code == "degenerate" {

@@ -1,6 +1,6 @@
 //! Shapes, views and placements without extent.
 
-use crate::desc::{Shape, TransformStep, Triple, WaterSurface};
+use crate::desc::{HeightField, HeightSource, Shape, TransformStep, Triple, WaterSurface};
 
 /// Triangles that one object may make of a formula.
 const MOST_TRIANGLES: u64 = 1 << 26;
@@ -157,6 +157,10 @@ pub(crate) fn shape_fault(shape: &Shape) -> Option<(&'static str, String)> {
         Shape::RoundBrilliant(gem) => degenerate(!has_length(gem.axis), "the axis has no length")
             .or_else(|| degenerate(!positive(gem.diameter), "the diameter is not > 0")),
         Shape::WaterSurface(water) => water_fault(water),
+        Shape::HeightField(field) => field_fault(field).or_else(|| match &field.source {
+            HeightSource::Rows(rows) => too_many(2 * rows.iter().map(|row| row.len() as u64).sum::<u64>()),
+            HeightSource::Picture(_) => None,
+        }),
         Shape::Torus { axis, major_radius, minor_radius, segments, tube_segments, .. } => {
             degenerate(!has_length(*axis), "the axis has no length")
                 .or_else(|| {
@@ -179,6 +183,28 @@ pub(crate) fn shape_fault(shape: &Shape) -> Option<(&'static str, String)> {
         | Shape::WineGlass { segments }
         | Shape::Wine { segments } => degenerate(*segments < 3, "there are less than 3 segments"),
     }
+}
+
+fn field_fault(field: &HeightField) -> Option<(&'static str, String)> {
+    let degenerate = |wrong: bool, text: &str| wrong.then(|| ("degenerate", text.to_owned()));
+    let positive = |x: f32| x > 0.0 && x.is_finite();
+    let ragged = match &field.source {
+        HeightSource::Picture(_) => None,
+        HeightSource::Rows(rows) => {
+            let columns = rows.first().map_or(0, Vec::len);
+            let other = rows.iter().position(|row| row.len() != columns);
+            let other = other
+                .map(|i| format!("row {} has {} heights, the first has {columns}", i + 1, rows[i].len()));
+            other.or_else(|| {
+                (rows.len() < 2 || columns < 2)
+                    .then(|| "there are less than two rows of two heights".to_owned())
+            })
+        }
+    };
+    degenerate(!field.size.into_iter().all(positive), "a side is not > 0")
+        .or_else(|| degenerate(field.depth.is_some_and(|d| !positive(d)), "the depth is not > 0"))
+        .or_else(|| degenerate(!field.height.is_finite(), "the height is not finite"))
+        .or_else(|| ragged.map(|text| ("degenerate", text)))
 }
 
 fn water_fault(water: &WaterSurface) -> Option<(&'static str, String)> {

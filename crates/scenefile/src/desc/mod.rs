@@ -23,7 +23,9 @@ pub use material::{
     CoatedConductor, CoatedDiffuse, Conductor, Dielectric, Facets, Ior, Material, MaterialKind, Metal,
     Principled, Roughness, ThinDielectric, ThinFilm,
 };
-pub use shape::{Brilliant, Normals, Shape, TEAPOT_PARTS, TeapotPart, WaterSurface};
+pub use shape::{
+    Brilliant, HeightField, HeightSource, Normals, Shape, TEAPOT_PARTS, TeapotPart, WaterSurface,
+};
 pub use texture::{
     Channel, ColorDesc, ColorSpace, EmbeddedImage, FloatDesc, Image, ImageSource, Mapping, Noise, NoiseKind,
     Texture, TextureFilter, Wrap,

@@ -255,6 +255,52 @@ pub enum Shape {
     RoundBrilliant(Brilliant),
     /// Water under wind.
     WaterSurface(WaterSurface),
+    /// Heights over a rectangle.
+    HeightField(HeightField),
+}
+
+/// Heights over a rectangle of the plane y = 0 about `center`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeightField {
+    /// The middle of where the heights are 0.
+    pub center: Triple,
+    /// Sides along x and z, > 0.
+    pub size: [f32; 2],
+    /// The heights.
+    pub source: HeightSource,
+    /// How high a height of 1 is; below 0 it is a depth.
+    pub height: f32,
+    /// From height 0 to the bottom of a closed body, > 0; `None` for an open sheet.
+    pub depth: Option<f32>,
+}
+
+/// Where the heights of a [`HeightField`] come from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum HeightSource {
+    /// The means of the channels of a picture, as numbers without a transfer curve; its top lies toward −z.
+    Picture(Sourced<PathBuf>),
+    /// Rows from −z to +z, each from −x to +x; two or more of two or more numbers.
+    Rows(Vec<Vec<f32>>),
+}
+
+impl Shape {
+    /// The file that it is read from, if any.
+    pub fn file(&self) -> Option<&Sourced<PathBuf>> {
+        match self {
+            Self::Mesh { file, .. } => Some(file),
+            Self::HeightField(HeightField { source: HeightSource::Picture(file), .. }) => Some(file),
+            _ => None,
+        }
+    }
+
+    /// [`Self::file`], to be changed.
+    pub fn file_mut(&mut self) -> Option<&mut Sourced<PathBuf>> {
+        match self {
+            Self::Mesh { file, .. } => Some(file),
+            Self::HeightField(HeightField { source: HeightSource::Picture(file), .. }) => Some(file),
+            _ => None,
+        }
+    }
 }
 
 /// A round brilliant; ratios are of its diameter.

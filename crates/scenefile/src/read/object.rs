@@ -3,8 +3,8 @@
 use super::amount::{self, Amount};
 use super::material;
 use crate::desc::{
-    Brilliant, Emission, EmissionAmount, Instance, Normals, Object, Shape, TEAPOT_PARTS, TeapotPart,
-    TransformStep, TransformSteps, WaterSurface,
+    Brilliant, Emission, EmissionAmount, HeightField, HeightSource, Instance, Normals, Object, Shape,
+    TEAPOT_PARTS, TeapotPart, TransformStep, TransformSteps, WaterSurface,
 };
 use crate::diagnostic::{Diagnostic, Report};
 use crate::document::{Entry, Node, Value};
@@ -182,6 +182,7 @@ fn shape(report: &mut Report, r: &Reader<'_>) -> Option<Shape> {
             Some(Shape::RoundedBox { min: min?, max: max?, radius: radius?, steps: steps? })
         }
         "round-brilliant" => brilliant(report, r).map(Shape::RoundBrilliant),
+        "height-field" => height_field(report, r).map(Shape::HeightField),
         "water-surface" => water(report, r).map(Shape::WaterSurface),
         "torus" => {
             let (center, axis) = (r.point(report, "center"), r.point(report, "axis"));
@@ -241,6 +242,29 @@ fn brilliant(report: &mut Report, r: &Reader<'_>) -> Option<Brilliant> {
         lower_half_length: lower?,
         culet: culet?,
     })
+}
+
+fn height_field(report: &mut Report, r: &Reader<'_>) -> Option<HeightField> {
+    let (center, size) = (r.point(report, "center"), r.pair(report, "size"));
+    let (height, depth) = (r.number(report, "height"), r.optional_number(report, "depth"));
+    let source = match (r.given("file"), r.given("heights")) {
+        (Some(a), Some(b)) => {
+            r.conflict(report, a, b);
+            None
+        }
+        (Some(_), None) => r.file(report, "file").map(HeightSource::Picture),
+        (None, Some(_)) => r.optional_rows(report, "heights").flatten().map(HeightSource::Rows),
+        (None, None) => {
+            let message = format!("missing `file` or `heights` in {}", r.what);
+            report.push(
+                Diagnostic::error("missing-key", message)
+                    .at(r.span)
+                    .help("name a picture, or give rows of numbers"),
+            );
+            None
+        }
+    };
+    Some(HeightField { center: center?, size: size?, source: source?, height: height?, depth: depth? })
 }
 
 fn water(report: &mut Report, r: &Reader<'_>) -> Option<WaterSurface> {

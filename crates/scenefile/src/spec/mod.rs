@@ -132,6 +132,8 @@ pub enum Kind {
     Points(usize, usize),
     /// A list of pairs of numbers.
     Pairs,
+    /// A list of lists of numbers.
+    Rows,
     /// A list of linear colours with or without opacity.
     VertexColors,
     /// A list of triples of vertex numbers.
@@ -346,6 +348,7 @@ impl Kind {
             Self::Points(min, _) if *min > 0 => format!("a list of points [x, y, z], at least {min}"),
             Self::Points(..) => "a list of vectors [x, y, z]".into(),
             Self::Pairs => "a list of pairs of numbers".into(),
+            Self::Rows => "a list of rows of numbers".into(),
             Self::VertexColors => "a list of [r, g, b] or [r, g, b, opacity]".into(),
             Self::Indices => "a list of [a, b, c]".into(),
             Self::Objects => "a list of objects".into(),

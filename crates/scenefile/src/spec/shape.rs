@@ -455,4 +455,35 @@ pub(super) const SHAPES: &[Variant] = &[
         ]],
         example: "[[objects]]\nshape = \"water-surface\"\nsize = [4.1, 8.1]\ndepth = 1.5\nwind_speed = 2.5\nfetch = 50\nmaterial = { kind = \"dielectric\", ior = \"water\" }\n",
     },
+    Variant {
+        name: "height-field",
+        doc: "Heights over a rectangle, of a picture or a list, with smooth normals. A vertex stands for each pixel or number: the outermost lie on the border. With depth it is a closed body.",
+        keys: &[&[
+            key("center", Point, "scene units", ORIGIN, "The middle of where the heights are 0."),
+            key("size", Pair(POSITIVE), "scene units", Preset::Pair([1.0, 1.0]), "Sides along x and z."),
+            key(
+                "file",
+                Kind::File(super::PICTURES),
+                "",
+                Absent("heights"),
+                "A picture: its numbers are the heights, from 0 to 1 or as a float file has them, with no curve; the mean of the channels. Its top lies toward -z.",
+            ),
+            key(
+                "heights",
+                Kind::Rows,
+                "",
+                Absent("file"),
+                "Rows from -z to +z, each of as many numbers from -x to +x; two at least.",
+            ),
+            key("height", Number(ANY), "scene units", Preset::Number(1.0), "How high a height of 1 is."),
+            key(
+                "depth",
+                Number(POSITIVE),
+                "scene units",
+                Absent("an open sheet"),
+                "From height 0 to the flat bottom of a closed body.",
+            ),
+        ]],
+        example: "[[objects]]\nshape = \"height-field\"\nsize = [2, 2]\nheights = [[0, 0, 0], [0, 0.25, 0], [0, 0, 0]]\nmaterial = \"white\"\n",
+    },
 ];

@@ -2,7 +2,7 @@
 
 use super::fields;
 use super::value::{Fields, number, quote, triple};
-use crate::desc::{Normals, Shape, TEAPOT_PARTS, TeapotPart};
+use crate::desc::{HeightSource, Normals, Shape, TEAPOT_PARTS, TeapotPart};
 use crate::spec;
 
 /// The fields of a shape.
@@ -139,6 +139,20 @@ pub(super) fn shape_fields(shape: &Shape) -> Fields {
             f.number("star_length", gem.star_length);
             f.number("lower_half_length", gem.lower_half_length);
             f.number("culet", gem.culet);
+            f
+        }
+        Shape::HeightField(field) => {
+            let mut f = new("height-field");
+            f.triple("center", field.center);
+            f.pair("size", field.size.map(number));
+            match &field.source {
+                HeightSource::Picture(file) => f.text("file", &file.to_string_lossy()),
+                HeightSource::Rows(rows) => f.list("heights", rows, |row| {
+                    format!("[{}]", row.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", "))
+                }),
+            }
+            f.number("height", field.height);
+            f.optional_number("depth", field.depth);
             f
         }
         Shape::WaterSurface(water) => {
