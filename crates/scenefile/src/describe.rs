@@ -78,6 +78,17 @@ pub(crate) const PAGES: &[(&str, &str, &str)] = &[
          luminaires (.ies, .ldt) lamps of a scene. `--set` and `--camera` change scenes of all kinds.\n",
     ),
     (
+        "include",
+        "How a scene takes tables from other files.",
+        "include = [\"materials.toml\", \"parts/lamps.toml\"], above all tables, adds the tables of other TOML files:\n\
+         \x20 materials, textures, groups       by name; no name may be given twice\n\
+         \x20 objects, lights, instances        behind those of the including file\n\
+         \x20 render, film, camera, ...         key by key; no key may be given twice\n\
+         File names start from the folder of the file that they stand in. Files may include others, 16 deep and\n\
+         256 in all, 12 MiB together; one that is included on several ways counts once. `--set` works on the\n\
+         whole, `nephroid convert` writes it as one file, and checkpoints hold it.\n",
+    ),
+    (
         "overrides",
         "How --set changes a scene from the command line.",
         "--set PATH.KEY=VALUE changes the scene before it is checked:\n\
@@ -109,7 +120,7 @@ pub fn topics() -> Vec<(&'static str, &'static str)> {
 }
 
 /// The reference of a topic: a section ("camera"), a kind ("sphere", "materials.glass"), a key ("camera.fov"), or
-/// one of the pages "colors", "units", "formats", "overrides", "presets", "errors", or a preset ("gold"). An empty topic lists all. Where a word or several are none of these,
+/// one of the pages "colors", "units", "formats", "include", "overrides", "presets", "errors", or a preset ("gold"). An empty topic lists all. Where a word or several are none of these,
 /// what speaks of them, the best first.
 ///
 /// Plain text of at most about 100 columns that ends with a newline.

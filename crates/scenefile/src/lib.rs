@@ -2,7 +2,7 @@
 //!
 //! [`load`] turns a file into a [`SceneDesc`] or into every reason why it cannot be one. The table in [`spec`] says
 //! which keys there are; the reader, [`to_toml`] and [`describe`] all follow it. No geometry is built and no file but
-//! the scene itself is opened here.
+//! the scene itself and those that it includes is opened here.
 
 mod check;
 mod convert;
@@ -10,6 +10,7 @@ pub mod desc;
 mod describe;
 pub mod diagnostic;
 mod document;
+mod include;
 mod load;
 mod nearest;
 mod overrides;

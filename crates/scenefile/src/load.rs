@@ -7,9 +7,10 @@ use std::path::Path;
 use crate::check::check_into;
 use crate::desc::SceneDesc;
 use crate::diagnostic::{Diagnostic, Report};
+use crate::include::{self, Parsed};
 use crate::snippet::render_all;
 use crate::source::{FileId, Sources, Span};
-use crate::{document, overrides, read};
+use crate::{overrides, read};
 
 /// Bytes of a scene file, at most: the parser takes up to 150 bytes of memory for each. Large meshes belong into mesh
 /// files.
@@ -22,7 +23,7 @@ pub struct Loaded {
     pub desc: Option<SceneDesc>,
     /// Every mistake and doubt, in the order of the text; a hundred at most.
     pub diagnostics: Vec<Diagnostic>,
-    /// The texts that spans point into: the scene file, then one for each override.
+    /// The texts that spans point into: the scene file, those that it includes, then one for each override.
     pub sources: Sources,
 }
 
@@ -49,7 +50,7 @@ pub fn load(path: &Path, overrides: &[String]) -> Loaded {
 }
 
 /// The text of a file without a byte order mark.
-fn read_text(path: &Path) -> Result<String, Diagnostic> {
+pub(crate) fn read_text(path: &Path) -> Result<String, Diagnostic> {
     let name = path.display();
     let fail = |reason: String| Diagnostic::error("file", format!("the scene {name} {reason}"));
     let io = |error: std::io::Error| match error.kind() {
@@ -89,18 +90,21 @@ fn decode(bytes: Vec<u8>) -> Result<String, (String, Option<String>)> {
 
 /// Checks a text as if it stood in the file `path`, from whose folder relative file names start.
 pub fn parse(text: &str, path: &Path, overrides: &[String]) -> Loaded {
-    parse_checked(text, path, overrides, |report, desc, file| check_into(report, desc, Some(file)))
+    let tree = |text: &str, file, sources: &mut Sources| include::with_includes(text, path, file, sources);
+    parse_checked(text, path, tree, overrides, |report, desc, file| check_into(report, desc, Some(file)))
 }
 
 /// [`parse`] of what [`to_toml`](crate::to_toml) wrote of a description that was good: it is not checked again, and the
 /// files that it names need not be there.
 pub fn reread(text: &str, base: &Path) -> Loaded {
-    parse_checked(text, &base.join("scene.toml"), &[], |_, _, _| {})
+    let alone = |text: &str, file, _: &mut Sources| include::alone(text, file);
+    parse_checked(text, &base.join("scene.toml"), alone, &[], |_, _, _| {})
 }
 
 fn parse_checked(
     text: &str,
     path: &Path,
+    tree: impl FnOnce(&str, FileId, &mut Sources) -> Parsed,
     overrides: &[String],
     check: impl FnOnce(&mut Report, &SceneDesc, FileId),
 ) -> Loaded {
@@ -108,7 +112,10 @@ fn parse_checked(
     let mut sources = Sources::default();
     let file = sources.add(path, text);
     let mut report = Report::default();
-    let (desc, broken) = parse_text(&mut report, text, file, overrides, &mut sources);
+    let (desc, broken) = {
+        let parsed = tree(text, file, &mut sources);
+        read_tree(&mut report, parsed, file, overrides, &mut sources)
+    };
     let mut desc = desc;
     desc.base = path.parent().map(Path::to_path_buf).unwrap_or_default();
     if !broken {
@@ -120,21 +127,14 @@ fn parse_checked(
 }
 
 /// The description, and whether the text has syntax errors, after which names and completeness mean nothing.
-pub(crate) fn parse_text(
+pub(crate) fn read_tree(
     report: &mut Report,
-    text: &str,
+    parsed: Parsed,
     file: FileId,
     overrides: &[String],
     sources: &mut Sources,
 ) -> (SceneDesc, bool) {
-    if text.len() as u64 > MOST_BYTES {
-        report.push(
-            Diagnostic::error("file", format!("the scene is larger than {} MiB", MOST_BYTES >> 20))
-                .at(Span { file, start: 0, end: 0 }),
-        );
-        return (SceneDesc::default(), true);
-    }
-    let (mut root, errors) = document::parse(text, file);
+    let Parsed { mut root, errors, twice } = parsed;
     let mut wrong_overrides = Vec::new();
     for text in overrides {
         if let Err(error) = overrides::apply(&mut root, text, sources) {
@@ -143,9 +143,11 @@ pub(crate) fn parse_text(
     }
     let broken = !errors.is_empty();
     // What stands on lines before the first syntax error was read as written; what follows may be garbled.
-    let first = errors.iter().filter_map(|e| e.labels.first()).map(|l| l.span.start).min().unwrap_or(0);
+    let first = errors.iter().filter_map(|e| e.labels.first()).filter(|l| l.span.file == file);
+    let first = first.map(|l| l.span.start).min().unwrap_or(0);
+    let text = sources.get(file).map_or("", |source| &source.text);
     let line = text.get(..first.min(text.len())).and_then(|t| t.rfind('\n')).unwrap_or(0);
-    for error in errors.into_iter().chain(wrong_overrides) {
+    for error in errors.into_iter().chain(twice).chain(wrong_overrides) {
         report.push(error);
     }
     let mut mistakes = Report::default();

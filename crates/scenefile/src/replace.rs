@@ -8,7 +8,8 @@ use std::path::Path;
 use crate::check::check_into;
 use crate::desc::{Group, ImageSource, Light, LightKind, Object, SceneDesc, Shape, Texture};
 use crate::diagnostic::{Diagnostic, Report};
-use crate::load::{Loaded, parse_text};
+use crate::include::alone;
+use crate::load::{Loaded, read_tree};
 use crate::overrides;
 use crate::source::{Sourced, Span};
 use crate::write::to_toml;
@@ -21,7 +22,7 @@ pub fn replace(loaded: Loaded, path: &Path, texts: &[String]) -> Loaded {
     let text = to_toml(&sketch(&desc, &roots));
     let file = sources.add(path.with_extension("toml"), text.as_str());
     let mut plain = Report::default();
-    let (before, _) = parse_text(&mut plain, &text, file, &[], &mut sources);
+    let (before, _) = read_tree(&mut plain, alone(&text, file), file, &[], &mut sources);
     if let Some(first) = plain.finish().into_iter().find(Diagnostic::is_error) {
         let message = format!("values of this scene cannot be replaced here: {}", first.message);
         let refused = Diagnostic::error("override", message)
@@ -31,7 +32,7 @@ pub fn replace(loaded: Loaded, path: &Path, texts: &[String]) -> Loaded {
         return Loaded { desc: None, diagnostics, sources };
     }
     let mut report = Report::default();
-    let (after, _) = parse_text(&mut report, &text, file, texts, &mut sources);
+    let (after, _) = read_tree(&mut report, alone(&text, file), file, texts, &mut sources);
     let desc = merged(desc, before, after, &roots);
     if !report.has_error() {
         check_into(&mut report, &desc, Some(file));

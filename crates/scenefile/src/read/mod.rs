@@ -71,10 +71,11 @@ fn unknown_table(report: &mut Report, entry: &Entry) {
         return;
     }
     let names = || SECTIONS.iter().filter(|s| s.form != Form::Inline).map(|s| s.name);
+    let heads = || names().chain([crate::include::KEY]);
     let kind = if matches!(entry.node.value, Value::Table(_) | Value::Array(_)) { "table" } else { "key" };
     let holder =
         SECTIONS.iter().find(|s| s.form == Form::Table && s.keys.iter().any(|k| k.name == entry.key));
-    let help = match (nearest(&entry.key, names()), holder) {
+    let help = match (nearest(&entry.key, heads()), holder) {
         (Some(name), _) => format!("did you mean `{name}`?"),
         (None, Some(section)) => format!("`{}` belongs below {}", entry.key, section.header()),
         (None, None) => format!("a scene has the tables {}", names().collect::<Vec<_>>().join(", ")),
