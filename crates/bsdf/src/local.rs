@@ -332,7 +332,8 @@ impl Local {
             _ => (1.0, [0.0; 2], Lanes::ZERO, Lanes::ZERO),
         };
         let micro = Micro::new(Facets::Conserving, alpha);
-        Thin { micro, alpha: isotropic(alpha), eta, reflectance, transmittance }
+        let (film, covered) = (Film::NONE, 0.0);
+        Thin { micro, alpha: isotropic(alpha), eta, film, covered, reflectance, transmittance }
     }
 
     fn glass(&self) -> Glass {

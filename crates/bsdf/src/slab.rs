@@ -206,7 +206,8 @@ impl Slab {
             Clear::None
         } else if p.interior == Interior::Thin {
             let (reflectance, transmittance) = (tint, p.base_color);
-            Clear::Thin(Thin { micro, alpha, eta, reflectance, transmittance })
+            let (film, covered) = (p.film, p.film_weight);
+            Clear::Thin(Thin { micro, alpha, eta: p.eta, film, covered, reflectance, transmittance })
         } else {
             // Equal indices make no surface; facets of almost equal ones are the nearest that can be sampled.
             let eta = if is_matched(p.eta) { 1.0 + 2e-3 } else { p.eta };

@@ -155,11 +155,13 @@ fn white_principled() {
         let p = PrincipledParameters { base_color: Lanes::ONE, alpha: [alpha; 2], ..Default::default() };
         let clearcoat = PrincipledParameters { clearcoat: 1.0, clearcoat_alpha: 0.05, ..p };
         let sheen = PrincipledParameters { sheen_color: Lanes::ONE, ..p };
+        let sheet = PrincipledParameters { transmission: 1.0, interior: Interior::Thin, ..p };
         for (p, bound) in [
             (p, 0.01),
             (PrincipledParameters { metallic: 1.0, ..p }, 0.01),
             (PrincipledParameters { transmission: 1.0, ..p }, 0.01),
-            (PrincipledParameters { transmission: 1.0, interior: Interior::Thin, ..p }, 0.01),
+            (sheet, 0.01),
+            (PrincipledParameters { film: Film::new(300.0, 2.0), film_weight: 0.8, ..sheet }, 0.01),
             (PrincipledParameters { diffuse_transmission: 0.5, ..p }, 0.01),
             (clearcoat, 0.01),
             (PrincipledParameters { metallic: 1.0, ..clearcoat }, 0.013),

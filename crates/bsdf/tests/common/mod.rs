@@ -94,6 +94,14 @@ pub fn principled_kinds() -> Vec<BsdfKind> {
         PrincipledParameters { transmission: 1.0, alpha: [0.1; 2], film, ..base },
         PrincipledParameters { transmission: 0.5, alpha: [0.4; 2], clearcoat: 1.0, eta: 1.33, ..base },
         PrincipledParameters { transmission: 0.7, metallic: 0.2, interior: Interior::Thin, ..base },
+        PrincipledParameters {
+            transmission: 1.0,
+            interior: Interior::Thin,
+            alpha: [0.3; 2],
+            film: Film::new(300.0, 2.0),
+            film_weight: 0.9,
+            ..base
+        },
     ]
     .map(principled)
     .to_vec()
