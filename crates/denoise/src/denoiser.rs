@@ -134,12 +134,11 @@ struct Window {
 impl Window {
     /// The smallest that holds all pixels that are not 0 in one of the planes.
     fn of<'a>(width: usize, planes: impl Iterator<Item = &'a Vec<[f32; 3]>>) -> Self {
-        let mut window = Self { columns: usize::MAX..0, rows: usize::MAX..0 };
+        let mut window = Self { columns: 0..0, rows: 0..0 };
         for plane in planes {
             for (i, _) in plane.iter().enumerate().filter(|(_, pixel)| **pixel != [0.0; 3]) {
-                let (x, y) = (i % width, i / width);
-                window.columns = window.columns.start.min(x)..window.columns.end.max(x + 1);
-                window.rows = window.rows.start.min(y)..window.rows.end.max(y + 1);
+                window.columns = grown(&window.columns, i % width);
+                window.rows = grown(&window.rows, i / width);
             }
         }
         window
@@ -148,6 +147,11 @@ impl Window {
     fn contains(&self, x: usize, y: usize) -> bool {
         self.columns.contains(&x) && self.rows.contains(&y)
     }
+}
+
+/// The smallest range that holds another one and an index.
+fn grown(range: &std::ops::Range<usize>, index: usize) -> std::ops::Range<usize> {
+    if range.is_empty() { index..index + 1 } else { range.start.min(index)..range.end.max(index + 1) }
 }
 
 fn bounded(plane: &[[f32; 3]], least: f32, greatest: f32) -> Vec<[f32; 3]> {
