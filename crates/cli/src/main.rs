@@ -8,6 +8,8 @@ mod denoise;
 mod describe;
 mod develop;
 mod display;
+#[cfg(test)]
+mod docs;
 mod drive;
 mod failure;
 mod grain;

@@ -3,10 +3,13 @@
 //! Every test is deterministic (numbers come from [`sampling::Sampler`] with fixed keys), reports p-values, and is
 //! to be judged at a level corrected for the number of tests ([`significance`]). Each check here has a test that
 //! plants an error of 2 % and sees it fail.
+//!
+//! [`markdown`] reads the pages of the documentation for the tests that hold them to what they say.
 
 mod chi2;
 mod directions;
 mod image;
+pub mod markdown;
 mod partition;
 mod quadrature;
 mod stats;
