@@ -70,7 +70,7 @@ pub struct SceneArgs {
 /// What replaces parts of a scene.
 #[derive(Debug, Args)]
 pub struct Changes {
-    /// Take every doubt about the scene for a mistake, as what a file of another program has and Nephroid does not.
+    /// Treat warnings about the scene as errors: that a file of another program asks for what Nephroid lacks, for example.
     #[arg(long)]
     pub strict: bool,
 
@@ -250,8 +250,8 @@ pub struct ResumeArgs {
     #[arg(value_name = "FILE.neph")]
     pub checkpoint: PathBuf,
 
-    /// Passes that there shall be in the end, or with a plus sign, as +64, that many more [default: as was asked for
-    /// when the render began].
+    /// How many passes in all; or with a plus sign, as +64, how many more [default: as was asked for when the render
+    /// began].
     #[arg(long, value_name = "N|+N", value_parser = values::extent)]
     pub passes: Option<Extent>,
 

@@ -3,6 +3,7 @@
 mod links;
 mod preprocess;
 mod site;
+mod words;
 
 use std::process::Command;
 
@@ -19,14 +20,19 @@ pub fn run(arguments: &[String]) -> Outcome {
     let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match words[..] {
         [] => {
-            links::check(&root())?;
+            check()?;
             build()
         }
-        ["--check"] => links::check(&root()),
+        ["--check"] => check(),
         ["--preprocess"] => preprocess::run(),
         ["--preprocess", "supports", _] => Ok(()),
         _ => Err("usage: cargo xtask book [--check]".into()),
     }
+}
+
+fn check() -> Outcome {
+    links::check(&root())?;
+    words::check(&root())
 }
 
 fn build() -> Outcome {
