@@ -3,6 +3,7 @@
 
 mod bench;
 mod book;
+mod diagrams;
 mod dist;
 mod gallery;
 mod long;
@@ -21,6 +22,7 @@ type Chore = (&'static str, &'static str, &'static str, fn(&[String]) -> Outcome
 const CHORES: &[Chore] = &[
     ("bench", "[--quick] [--only PREFIX] [--json FILE]", "measures against peers", bench::run),
     ("book", "[--check]", "checks the links of all pages and makes the site: target/book/", book::run),
+    ("diagrams", "[--check]", "draws docs/book/diagrams/", diagrams::run),
     ("dist", "[--target TRIPLE]", "packs the program for release: target/dist/", dist::run),
     ("gallery", "[NAME...]", "renders docs/gallery/", gallery::run),
     ("long", "[NAME...]", "runs the tests that take minutes", long::run),
