@@ -8,6 +8,7 @@ mod dist;
 mod gallery;
 mod long;
 mod reference;
+mod spheres;
 mod verify;
 
 use std::path::{Path, PathBuf};
@@ -27,6 +28,7 @@ const CHORES: &[Chore] = &[
     ("gallery", "[NAME...]", "renders docs/gallery/", gallery::run),
     ("long", "[NAME...]", "runs the tests that take minutes", long::run),
     ("reference", "[--check]", "writes docs/reference.md", reference::run),
+    ("spheres", "[NAME...]", "renders docs/book/spheres/: a ball of every material", spheres::run),
     (
         "verify",
         "[--scenes DIR] [--out DIR] [--passes N] [NAME...]",
