@@ -40,11 +40,11 @@ pub fn check(root: &Path) -> Outcome {
     if wrong.is_empty() { Ok(()) } else { Err(wrong.join("\n")) }
 }
 
-/// Pages that others link to and that are still being written: they may be missing, and need not be listed.
-const PROMISED: [&str; 1] = ["docs/book/black-picture.md"];
+/// Pages and folders that are still being written: they may be missing, and need not be listed.
+const PROMISED: [&str; 2] = ["docs/book/black-picture.md", "docs/cookbook"];
 
 fn is_promised(page: &Path) -> bool {
-    PROMISED.iter().any(|promised| page == Path::new(promised))
+    PROMISED.iter().any(|promised| page.starts_with(promised))
 }
 
 struct Repository<'a> {
