@@ -17,6 +17,8 @@ pub enum Shape {
     Sphere,
     /// Of triangles, with a colour at each vertex.
     Painted,
+    /// Something else: the keys of its object.
+    Other(&'static str),
 }
 
 const fn ball(name: &'static str, material: &'static str) -> Ball {
@@ -137,6 +139,68 @@ pub const TEXTURES: &[Ball] = &[
         .with("[textures.t]\nkind = \"checker\"\na = 0\nb = 1\nscale = [8, 4]"),
     ball("roughness", "kind = \"conductor\"\nmetal = \"copper\"\nroughness = { texture = \"t\" }")
         .with("[textures.t]\nkind = \"checker\"\na = 0.1\nb = 0.6\nscale = [6, 3]"),
+];
+
+/// A shape in its place of the ball, of glazed clay.
+const fn shaped(name: &'static str, keys: &'static str) -> Ball {
+    const CLAY: &str = "kind = \"plastic\"\ncolor = [0.5, 0.62, 0.7]\nroughness = 0.15";
+    Ball { name, material: CLAY, tables: "", shape: Shape::Other(keys) }
+}
+
+/// One for every shape that has a volume of its own.
+pub const SHAPES: &[Ball] = &[
+    shaped(
+        "box",
+        "shape = \"box\"\nmin = [-0.75, 0, -0.75]\nmax = [0.75, 1.5, 0.75]\ntransform = { rotate = { axis = [0, 1, 0], degrees = 30 } }",
+    ),
+    shaped(
+        "rounded-box",
+        "shape = \"rounded-box\"\nmin = [-0.75, 0, -0.75]\nmax = [0.75, 1.5, 0.75]\nradius = 0.2\ntransform = { rotate = { axis = [0, 1, 0], degrees = 30 } }",
+    ),
+    shaped("capsule", "shape = \"capsule\"\nbase = [0, 0.55, 0]\nradius = 0.55\nheight = 0.9"),
+    shaped("cylinder", "shape = \"cylinder\"\nradius = 0.8\nheight = 1.5\nclosed = true"),
+    shaped("cone", "shape = \"cone\"\nradius = 0.9\nheight = 1.8"),
+    shaped(
+        "icosphere",
+        "shape = \"icosphere\"\ncenter = [0, 0.95, 0]\nradius = 0.95\nlevel = 1\nsmooth = false",
+    ),
+    shaped("torus", "shape = \"torus\"\ncenter = [0, 0.34, 0]\nmajor_radius = 0.75\nminor_radius = 0.34"),
+    shaped("band", "shape = \"band\"\ninner_radius = 0.85\nouter_radius = 1.05\nheight = 0.7\nfillet = 0.08"),
+    shaped(
+        "lathe",
+        "shape = \"lathe\"\nprofile = [[0, 0], [0.45, 0], [0.75, 0.55], [0.4, 1.2], [0.32, 1.6], [0.5, 1.9], [0.44, 1.88], [0.26, 1.6], [0.34, 1.2], [0.68, 0.55], [0.4, 0.08], [0, 0.08]]\nsteps = 8",
+    ),
+    shaped(
+        "teapot",
+        "shape = \"teapot\"\nsolid = true\ntransform = [{ scale = 0.43 }, { rotate = { axis = [0, 1, 0], degrees = 25 } }]",
+    ),
+    shaped(
+        "coffee-cup",
+        "shape = \"coffee-cup\"\ntransform = [{ scale = 18 }, { rotate = { axis = [0, 1, 0], degrees = -30 } }]",
+    ),
+    Ball { material: "preset = \"gold\"", ..shaped("ring", "shape = \"ring\"\ntransform = { scale = 95 }") },
+    Ball {
+        material: "kind = \"dielectric\"\nior = \"glass\"",
+        ..shaped("wine-glass", "shape = \"wine-glass\"\ntransform = { scale = 9 }")
+    },
+    Ball {
+        material: "preset = \"diamond\"",
+        ..shaped(
+            "round-brilliant",
+            "shape = \"round-brilliant\"\ncenter = [0, 0.9, 0]\ndiameter = 2\ntransform = { rotate = { axis = [1, 0, 0], degrees = 12 } }",
+        )
+    },
+    Ball {
+        material: "preset = \"water\"",
+        ..shaped(
+            "water-surface",
+            "shape = \"water-surface\"\ncenter = [0, 0.7, 0]\nsize = [1.8, 1.8]\ndepth = 0.7\nwind_speed = 4\nfetch = 400\nwave_height = 0.09\nseed = 4\ntransform = { rotate = { axis = [0, 1, 0], degrees = 30 } }",
+        )
+    },
+    shaped(
+        "height-field",
+        "shape = \"height-field\"\nfile = \"hills.png\"\ncenter = [0, 0.2, 0]\nsize = [1.8, 1.8]\nheight = 0.9\ndepth = 0.2\ntransform = { rotate = { axis = [0, 1, 0], degrees = 30 } }",
+    ),
 ];
 
 impl Ball {

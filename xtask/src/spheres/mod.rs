@@ -1,4 +1,4 @@
-//! `cargo xtask spheres`: a ball of every material and texture for the book, docs/book/spheres/*.jpg.
+//! `cargo xtask spheres`: a ball of every material and texture, and every shape, for the book: docs/book/spheres/*.jpg.
 
 mod list;
 mod studio;
@@ -10,7 +10,7 @@ use image::codecs::jpeg::JpegEncoder;
 
 use crate::gallery::build;
 use crate::{Outcome, root};
-use list::{Ball, MATERIALS, PRESETS, TEXTURES};
+use list::{Ball, MATERIALS, PRESETS, SHAPES, TEXTURES};
 
 const SIZE: u32 = 240;
 
@@ -21,7 +21,7 @@ const PASSES: u32 = 40;
 const MOST_EACH: u64 = 15_000;
 
 fn balls() -> impl Iterator<Item = &'static Ball> {
-    MATERIALS.iter().chain(PRESETS).chain(TEXTURES)
+    MATERIALS.iter().chain(PRESETS).chain(TEXTURES).chain(SHAPES)
 }
 
 fn folder() -> PathBuf {
@@ -103,11 +103,19 @@ mod tests {
 
     #[test]
     fn every_kind_has_a_ball() {
-        for (section, balls) in [("materials", MATERIALS), ("textures", TEXTURES)] {
+        // Flat ones, what comes from files, and what fills another shape.
+        let plain = ["disk", "quad", "mesh", "triangles", "sphere", "wine"];
+        for (section, balls) in [("materials", MATERIALS), ("textures", TEXTURES), ("objects", SHAPES)] {
             let section = scenefile::spec::SECTIONS.iter().find(|s| s.name == section).unwrap();
-            for kind in section.variants() {
-                let line = format!("kind = \"{}\"", kind.name);
-                let has = |ball: &Ball| ball.material.contains(&line) || ball.tables.contains(&line);
+            for kind in section.variants().iter().filter(|kind| !plain.contains(&kind.name)) {
+                let line = format!(" = \"{}\"", kind.name);
+                let has = |ball: &Ball| {
+                    let keys = match ball.shape {
+                        list::Shape::Other(keys) => keys,
+                        list::Shape::Sphere | list::Shape::Painted => "",
+                    };
+                    [ball.material, ball.tables, keys].iter().any(|text| text.contains(&line))
+                };
                 assert!(balls.iter().any(has), "{}: {}", section.name, kind.name);
             }
         }
@@ -116,13 +124,13 @@ mod tests {
     #[test]
     fn every_ball_has_its_picture_on_a_page() {
         let page = |name: &str| std::fs::read_to_string(root().join("docs/book").join(name)).unwrap();
-        let (materials, textures) = (page("materials.md"), page("textures.md"));
+        let pages = [page("materials.md"), page("textures.md"), page("shapes.md")];
         for ball in balls() {
             let path = folder().join(ball.name).with_extension("jpg");
             let bytes = std::fs::metadata(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display())).len();
             assert!(bytes <= MOST_EACH, "{}: {bytes} bytes", ball.name);
             let link = format!("spheres/{}.jpg", ball.name);
-            assert!(materials.contains(&link) || textures.contains(&link), "{} is on no page", ball.name);
+            assert!(pages.iter().any(|page| page.contains(&link)), "{} is on no page", ball.name);
         }
     }
 }

@@ -63,6 +63,7 @@ pub fn scene(ball: &Ball) -> String {
     let shape = match ball.shape {
         Shape::Sphere => "shape = \"sphere\"\ncenter = [0, 1, 0]\nradius = 1\n".to_owned(),
         Shape::Painted => painted(),
+        Shape::Other(keys) => keys.to_owned(),
     };
     let Ball { material, tables, .. } = ball;
     format!("{STUDIO}\n[materials.ball]\n{material}\n{tables}\n\n[[objects]]\nmaterial = \"ball\"\n{shape}")
@@ -106,7 +107,21 @@ pub fn pictures(folder: &Path) -> Outcome {
         picture.save(&path).map_err(|e| format!("{}: {e}", path.display()))
     };
     save("map.png", RgbImage::from_fn(512, 256, map))?;
-    save("quilt.png", RgbImage::from_fn(1024, 512, quilt))
+    save("quilt.png", RgbImage::from_fn(1024, 512, quilt))?;
+    let path = folder.join("hills.png");
+    let hills = image::ImageBuffer::<image::Luma<u16>, _>::from_fn(256, 256, hills);
+    hills.save(&path).map_err(|e| format!("{}: {e}", path.display()))
+}
+
+/// Heights of three hills.
+fn hills(x: u32, y: u32) -> image::Luma<u16> {
+    let hill = |[u, v, width, height]: [f64; 4]| {
+        let [x, y] = [f64::from(x) / 255.0 - u, f64::from(y) / 255.0 - v];
+        height * (-(x * x + y * y) / (width * width)).exp()
+    };
+    let sum: f64 =
+        [[0.38, 0.42, 0.2, 0.9], [0.72, 0.6, 0.14, 0.6], [0.3, 0.78, 0.12, 0.4]].map(hill).iter().sum();
+    image::Luma([(65_535.0 * sum.min(1.0)) as u16])
 }
 
 /// A map: colours by longitude, brighter toward the top, lines every 32 texels.
