@@ -1,24 +1,29 @@
-//! `cargo xtask spheres`: a ball of every material and texture, and every shape, for the book: docs/book/spheres/*.jpg.
+//! `cargo xtask spheres`: a ball of every material and texture, and every shape, for the book: docs/book/spheres/*.jpg; and
+//! the scenes that stand on its pages: docs/book/pictures/*.jpg.
 
 mod list;
+mod pages;
 mod studio;
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use image::RgbImage;
 use image::codecs::jpeg::JpegEncoder;
 
 use crate::gallery::build;
 use crate::{Outcome, root};
 use list::{Ball, MATERIALS, PRESETS, SHAPES, TEXTURES};
+use pages::PAGES;
 
 const SIZE: u32 = 240;
 
 /// With a denoiser; without one the pictures keep some grain.
 const PASSES: u32 = 40;
 
-/// Bytes that a picture may have.
+/// Bytes that a ball's picture, and a page's, may have.
 const MOST_EACH: u64 = 15_000;
+const MOST_OF_A_PAGE: u64 = 40_000;
 
 fn balls() -> impl Iterator<Item = &'static Ball> {
     MATERIALS.iter().chain(PRESETS).chain(TEXTURES).chain(SHAPES)
@@ -28,58 +33,76 @@ fn folder() -> PathBuf {
     root().join("docs/book/spheres")
 }
 
-/// Renders all balls, or those named.
+fn pictures() -> PathBuf {
+    root().join("docs/book/pictures")
+}
+
+/// Renders all balls and pages, or those named.
 pub fn run(arguments: &[String]) -> Outcome {
-    if let Some(name) = arguments.iter().find(|name| !balls().any(|ball| ball.name == **name)) {
-        let names: Vec<_> = balls().map(|ball| ball.name).collect();
-        return Err(format!("no ball is called `{name}`; there are {}", names.join(", ")));
+    let names: Vec<_> = balls().map(|ball| ball.name).chain(PAGES.iter().map(|page| page.name)).collect();
+    if let Some(name) = arguments.iter().find(|name| !names.contains(&name.as_str())) {
+        return Err(format!("no picture is called `{name}`; there are {}", names.join(", ")));
     }
+    let wanted = |name: &str| arguments.is_empty() || arguments.iter().any(|wanted| wanted == name);
     let nephroid = build()?;
     let work = root().join("target/spheres");
-    for folder in [&work, &folder()] {
+    for folder in [&work, &folder(), &pictures()] {
         std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     }
     studio::pictures(&work)?;
-    for ball in balls().filter(|ball| arguments.is_empty() || arguments.iter().any(|name| name == ball.name))
-    {
-        println!("{}", ball.name);
-        render(&nephroid, ball, &work)?;
+    let (size, passes) = (format!("{SIZE}x{SIZE}"), PASSES.to_string());
+    let small = ["--size", &size, "--passes", &passes, "--denoise"];
+    for ball in balls().filter(|ball| wanted(ball.name)) {
+        let scene = work.join(ball.name).with_extension("toml");
+        let picture = render(&nephroid, &scene, &studio::scene(ball), &small)?;
+        write(&folder().join(ball.name), &picture, MOST_EACH)?;
+    }
+    for page in PAGES.iter().filter(|page| wanted(page.name)) {
+        let scene = work.join(page.name).with_extension("toml");
+        let picture = render(&nephroid, &scene, &page.scene()?, page.arguments)?;
+        write(&pictures().join(page.name), &picture, MOST_OF_A_PAGE)?;
     }
     Ok(())
 }
 
-fn render(nephroid: &Path, ball: &Ball, work: &Path) -> Outcome {
-    let scene = work.join(ball.name).with_extension("toml");
+/// Writes the scene to a file and renders it.
+fn render(nephroid: &Path, scene: &Path, text: &str, arguments: &[&str]) -> Result<RgbImage, String> {
     let png = scene.with_extension("png");
-    std::fs::write(&scene, studio::scene(ball)).map_err(|e| format!("{}: {e}", scene.display()))?;
+    println!("{}", scene.display());
+    std::fs::write(scene, text).map_err(|e| format!("{}: {e}", scene.display()))?;
     let status = Command::new(nephroid)
         .arg("render")
-        .arg(&scene)
+        .arg(scene)
         .arg("--output")
         .arg(&png)
-        .args(["--size", &format!("{SIZE}x{SIZE}"), "--passes", &PASSES.to_string(), "--denoise", "--quiet"])
+        .args(arguments)
+        .arg("--quiet")
         .status()
         .map_err(|e| format!("{}: {e}", nephroid.display()))?;
     if !status.success() {
-        return Err(format!("{} was not rendered", ball.name));
+        return Err(format!("{} was not rendered", scene.display()));
     }
-    let picture = image::open(&png).map_err(|e| format!("{}: {e}", png.display()))?.into_rgb8();
-    let path = folder().join(ball.name).with_extension("jpg");
-    std::fs::write(&path, jpeg(&picture)?).map_err(|e| format!("{}: {e}", path.display()))
+    Ok(image::open(&png).map_err(|e| format!("{}: {e}", png.display()))?.into_rgb8())
 }
 
-/// The picture in the best quality that is small enough.
-fn jpeg(picture: &image::RgbImage) -> Result<Vec<u8>, String> {
+/// Writes the picture as JPEG, in the best quality that has no more than `most` bytes.
+fn write(path: &Path, picture: &RgbImage, most: u64) -> Outcome {
+    let path = path.with_extension("jpg");
+    let bytes = jpeg(picture, most)?;
+    std::fs::write(&path, bytes).map_err(|e| format!("{}: {e}", path.display()))
+}
+
+fn jpeg(picture: &RgbImage, most: u64) -> Result<Vec<u8>, String> {
     for quality in (30..=86).rev().step_by(4) {
         let mut bytes = Vec::new();
         JpegEncoder::new_with_quality(&mut bytes, quality)
             .encode_image(picture)
             .map_err(|e| format!("JPEG: {e}"))?;
-        if bytes.len() as u64 <= MOST_EACH {
+        if bytes.len() as u64 <= most {
             return Ok(bytes);
         }
     }
-    Err(format!("a picture has more than {MOST_EACH} bytes in any quality"))
+    Err(format!("a picture has more than {most} bytes in any quality"))
 }
 
 #[cfg(test)]
@@ -131,6 +154,18 @@ mod tests {
             assert!(bytes <= MOST_EACH, "{}: {bytes} bytes", ball.name);
             let link = format!("spheres/{}.jpg", ball.name);
             assert!(pages.iter().any(|page| page.contains(&link)), "{} is on no page", ball.name);
+        }
+    }
+
+    #[test]
+    fn every_page_shows_its_picture() {
+        for page in PAGES {
+            let text = std::fs::read_to_string(root().join(format!("docs/book/{}.md", page.name))).unwrap();
+            assert!(text.contains(&format!("](pictures/{}.jpg)", page.name)), "{}", page.name);
+            assert!(pictures().join(page.name).with_extension("jpg").exists(), "{}", page.name);
+            // The page says the command that makes it.
+            assert!(text.contains(&page.arguments.join(" ")), "{}", page.name);
+            assert!(page.scene().unwrap().contains("[camera]"), "{}", page.name);
         }
     }
 }
