@@ -97,6 +97,14 @@ pub struct Changes {
     #[arg(long, value_name = "X,Y,Z:X,Y,Z:FOV", allow_hyphen_values = true, value_parser = values::camera)]
     pub camera: Option<CameraSets>,
 
+    /// Lay no ground under a model (glTF, OBJ, PLY) that has neither camera nor light. Short for --set stage.ground=false.
+    #[arg(long)]
+    pub no_ground: bool,
+
+    /// Lay a ground under a model although it has a camera or light of its own.
+    #[arg(long, conflicts_with = "no_ground")]
+    pub ground: bool,
+
     /// Passes, each one camera sample a pixel [default: the scene's, or 128].
     #[arg(long, visible_aliases = ["spp", "samples"], value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4_194_304))]
     pub passes: Option<u32>,
@@ -133,8 +141,11 @@ pub struct Changes {
 impl Changes {
     /// All values that are replaced in the scene, as --set has them.
     pub fn sets(&self) -> Vec<String> {
-        let camera = self.camera.iter().flat_map(|camera| camera.0.iter());
-        camera.chain(&self.set).cloned().collect()
+        let camera = self.camera.iter().flat_map(|camera| camera.0.iter().cloned());
+        let ground = [(self.ground, true), (self.no_ground, false)];
+        let ground =
+            ground.iter().filter(|(asked, _)| *asked).map(|(_, laid)| format!("stage.ground={laid}"));
+        camera.chain(ground).chain(self.set.iter().cloned()).collect()
     }
 }
 

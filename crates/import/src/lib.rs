@@ -21,11 +21,14 @@ mod ply;
 mod report;
 mod spectrum;
 mod stage;
+mod studio;
 mod surfaces;
 
 use std::path::Path;
 
 use scenefile::{Diagnostic, Loaded, Severity, Sources, Span};
+
+use stage::Ground;
 
 pub use outsource::{OutsourceError, outsource};
 
@@ -34,6 +37,10 @@ pub use outsource::{OutsourceError, outsource};
 ///
 /// Files of other programs are refused with what to export; a file that is not there with the name of one that may be meant.
 ///
+/// Models (glTF, OBJ, PLY) that lack a camera, a light or both are given a view of the whole, a studio and a ground, which is said
+/// as notes; `stage.ground=false` among `overrides` leaves the ground out, `=true` lays one in any case. Other scenes have none:
+/// for them the first is a note, the second an error.
+///
 /// `overrides` replace values, as [`scenefile::load`] takes them; of scenes of other programs those of the description
 /// ([`scenefile::replace`]). With Mitsuba's a name without a table is that of a `<default>`.
 /// Never panics; memory is bounded by the size of the files.
@@ -41,25 +48,45 @@ pub fn load(path: &Path, overrides: &[String]) -> Loaded {
     let format = Format::of(path);
     let foreign = || (format == Format::Native).then(|| foreign::refusal(path)).flatten();
     if let Some(refusal) = absent::refusal(path).or_else(foreign) {
-        let mut sources = Sources::default();
-        let file = sources.add(path, "");
-        return Loaded {
-            desc: None,
-            diagnostics: vec![refusal.at(Span { file, start: 0, end: 0 })],
-            sources,
-        };
+        return refused(path, refusal);
     }
+    let (ground, overrides) = match Ground::take(overrides) {
+        Ok((Some(Ground::Laid), _)) if !format.is_model() => return refused(path, no_model(path)),
+        Ok(taken) => taken,
+        Err(diagnostic) => return refused(path, diagnostic),
+    };
+    let mut loaded = load_as(format, path, ground.unwrap_or_default(), overrides);
+    if ground.is_some() && !format.is_model() {
+        loaded.diagnostics.push(Diagnostic::note("ground", "no ground is laid under this scene in any case"));
+    }
+    loaded
+}
+
+/// A scene that is not read.
+fn refused(path: &Path, why: Diagnostic) -> Loaded {
+    let mut sources = Sources::default();
+    let file = sources.add(path, "");
+    Loaded { desc: None, diagnostics: vec![why.at(Span { file, start: 0, end: 0 })], sources }
+}
+
+fn no_model(path: &Path) -> Diagnostic {
+    let message = format!("no ground can be laid under {}: it is a whole scene, not a model", path.display());
+    Diagnostic::error("override", message)
+        .help("models are glTF, OBJ and PLY files; in a scene of your own, add a [[objects]] table with a `quad` or a `disk`")
+}
+
+fn load_as(format: Format, path: &Path, ground: Ground, overrides: Vec<String>) -> Loaded {
     // Defaults of Mitsuba's scenes have names without a table.
     let is_default = |text: &&String| format == Format::Mitsuba && !names_a_table(text);
     let (defaults, overrides): (Vec<String>, Vec<String>) =
-        overrides.iter().cloned().partition(|t| is_default(&t));
+        overrides.into_iter().partition(|t| is_default(&t));
     let loaded = match format {
         Format::Native => return scenefile::load(path, &overrides),
         Format::Mitsuba => mitsuba::load(path, &defaults),
         Format::Pbrt => pbrt::load(path),
-        Format::Gltf => gltf::load(path),
-        Format::Obj => obj::load(path),
-        Format::Ply => ply::load(path),
+        Format::Gltf => gltf::load(path, ground),
+        Format::Obj => obj::load(path, ground),
+        Format::Ply => ply::load(path, ground),
     };
     if overrides.is_empty() { loaded } else { scenefile::replace(loaded, path, &overrides) }
 }
@@ -99,6 +126,14 @@ pub enum Format {
 }
 
 impl Format {
+    /// Whether files of it are often things alone, without camera and light.
+    fn is_model(self) -> bool {
+        match self {
+            Self::Gltf | Self::Obj | Self::Ply => true,
+            Self::Native | Self::Pbrt | Self::Mitsuba => false,
+        }
+    }
+
     /// By the file's extension.
     pub fn of(path: &Path) -> Self {
         let name = path.file_name().unwrap_or_default().to_string_lossy().to_lowercase();

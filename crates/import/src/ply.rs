@@ -10,7 +10,7 @@ use scenefile::{Diagnostic, FileId, Loaded, Sources, Span};
 
 use crate::file::read_plain;
 use crate::report::Report;
-use crate::stage;
+use crate::stage::{self, Given, Ground};
 
 /// Edges that bend more than this stay sharp where a file has no normals, in degrees.
 const CREASE: f32 = 35.0;
@@ -18,7 +18,7 @@ const CREASE: f32 = 35.0;
 pub(crate) const GREY: f32 = 0.6;
 
 /// Reads a mesh, framed and lit.
-pub(crate) fn load(path: &Path) -> Loaded {
+pub(crate) fn load(path: &Path, ground: Ground) -> Loaded {
     let read = read_plain(path);
     let mesh = match read {
         Ok(bytes) => mesh::ply::parse(&bytes).map_err(|e| fault(e, &bytes)),
@@ -43,25 +43,20 @@ pub(crate) fn load(path: &Path) -> Loaded {
                 Object { name: Some(name), ..Object::new(shape(mesh), MaterialRef::from("surface")) };
             desc.objects.push(object.into());
             // Colours on points of scans are no reason for holes, so that opacity of vertices is not asked for.
-            finish(desc, report, sources)
+            finish(desc, report, sources, ground)
         }
         Err(diagnostic) => {
             report.push(diagnostic);
-            finish(desc, report, sources)
+            finish(desc, report, sources, ground)
         }
     }
 }
 
-/// Frames and lights what was read, and checks it.
-pub(crate) fn finish(mut desc: SceneDesc, mut report: Report, sources: Sources) -> Loaded {
-    let whole = Span { file: FileId(0), start: 0, end: 0 };
+/// Frames and lights what was read, with a ground under it, and checks it.
+pub(crate) fn finish(mut desc: SceneDesc, mut report: Report, sources: Sources, ground: Ground) -> Loaded {
     if !report.has_error() {
-        stage::frame(&mut desc);
-        report.note("no-camera", "the file has no camera: the whole mesh is framed", whole);
-        if !desc.objects.iter().any(|object| object.emission.is_some()) {
-            stage::light(&mut desc);
-            report.note("no-light", "the file has no light: a soft sky lights it", whole);
-        }
+        let light = desc.objects.iter().any(|object| object.emission.is_some());
+        stage::complete(&mut desc, Given { light, ground }, &mut report);
         scenefile::check(&desc).into_iter().for_each(|d| report.push(d));
     }
     let diagnostics = report.finish();

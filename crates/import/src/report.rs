@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use scenefile::desc::Sppm;
 use scenefile::{Diagnostic, Severity, Span};
 
 /// At most this many diagnostics are kept; the rest are counted.
@@ -40,6 +41,17 @@ impl Report {
     /// What was done where nothing is wrong.
     pub(crate) fn note(&mut self, code: &'static str, message: impl Into<String>, span: Span) {
         self.push(Diagnostic::note(code, message).at(span));
+    }
+
+    /// That a file asks for `sppm`, and what its settings mean here.
+    pub(crate) fn asks_for_sppm(&mut self, sppm: &Sppm, span: Span) {
+        let radius = sppm.radius.map_or("no radius".to_owned(), |radius| format!("a radius of {radius}"));
+        let photons = sppm
+            .photons
+            .map_or("as many photons a pass as pixels".to_owned(), |n| format!("{n} photons a pass"));
+        let message = format!("the file asks for `sppm`, with {radius} and {photons}");
+        let help = "`--integrator auto` is usually better: it has less noise, and needs neither radius nor number of photons";
+        self.push(Diagnostic::note("integrator", message).at(span).help(help));
     }
 
     pub(crate) fn has_error(&self) -> bool {

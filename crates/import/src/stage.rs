@@ -1,31 +1,112 @@
-//! What files without a camera or a light are given: a view of the whole, and a soft sky.
+//! What models are given that their files leave out: a view of the whole, the light of a studio, and a ground.
 
-use std::f64::consts::PI;
-
-use scenefile::desc::{
-    Camera, EmbeddedImage, FovAxis, ImageSource, Light, LightKind, SceneDesc, Shape, SkyMapping,
-    TransformStep, TransformSteps, Triple,
-};
+use scenefile::desc::{Camera, FovAxis, SceneDesc, Shape, TransformStep, TransformSteps, Triple};
+use scenefile::{Diagnostic, FileId, Span};
 
 use crate::matrix::{Matrix, add, cross, dot, narrow, times, unit, wide};
+use crate::report::Report;
+use crate::studio;
 
 /// Width over height of the picture.
 pub(crate) const ASPECT: f64 = 4.0 / 3.0;
 const SIZE: [u32; 2] = [800, 600];
 /// Degrees over the picture's height.
 const FOV: f64 = 40.0;
-/// Share of the picture that what is framed fills.
+/// Share of the picture that what is framed fills: alone, and on a ground, where its shadow wants room.
 const FILLED: f64 = 0.92;
+const FILLED_ON_GROUND: f64 = 0.78;
 /// Degrees to the right of the front and above the horizon from where it is seen.
 const FROM: [f64; 2] = [25.0, 17.0];
+/// What is lower than the second, of its width or depth, is seen from further above: by so many degrees from the first on.
+const LOW: [f64; 2] = [0.1, 0.35];
+const FURTHER_ABOVE: f64 = 16.0;
 /// What is flatter than the first, of its height or width, is seen from the front; what is deeper than the second from there.
 const FLAT: [f64; 2] = [0.2, 0.8];
 /// Vertices of instances that are looked at one by one.
 const MANY: usize = 4 << 20;
 
-/// Looks at the whole scene, whose meshes are all in place, from the front, right and above (+z is the front, +y up).
-/// Whether there is anything to look at; the camera is set in any case.
-pub(crate) fn frame(desc: &mut SceneDesc) -> bool {
+/// Whether a ground is laid under a model.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Ground {
+    /// Where the file has neither a camera nor a light.
+    #[default]
+    UnderBare,
+    /// In any case.
+    Laid,
+    /// Never.
+    Missing,
+}
+
+/// The name of the override that says so.
+const GROUND_KEY: &str = "stage.ground";
+
+impl Ground {
+    /// Takes what is said about it out of the overrides of a scene; the last word counts.
+    ///
+    /// # Errors
+    /// A diagnostic where it is neither `true` nor `false`.
+    pub(crate) fn take(overrides: &[String]) -> Result<(Option<Self>, Vec<String>), Diagnostic> {
+        let mut ground = None;
+        let mut rest = Vec::new();
+        for text in overrides {
+            match text.split_once('=').filter(|(key, _)| key.trim() == GROUND_KEY) {
+                Some((_, value)) => {
+                    ground = Some(match value.trim() {
+                        "true" => Self::Laid,
+                        "false" => Self::Missing,
+                        _ => {
+                            let message = format!("`{text}`: a ground is there or not");
+                            return Err(Diagnostic::error("override", message)
+                                .help("write `stage.ground=true` or `stage.ground=false`"));
+                        }
+                    });
+                }
+                None => rest.push(text.clone()),
+            }
+        }
+        Ok((ground, rest))
+    }
+}
+
+/// What a file has of its own.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Given {
+    /// Whether it has a lamp, or a surface that is one.
+    pub light: bool,
+    /// What was asked for.
+    pub ground: Ground,
+}
+
+/// Gives a model what it lacks: a view of the whole if the file has no camera, the light of a studio if it has no light, and a
+/// ground if it has neither, unless asked for otherwise. All is said.
+pub(crate) fn complete(desc: &mut SceneDesc, given: Given, report: &mut Report) {
+    let whole = Span { file: FileId(0), start: 0, end: 0 };
+    let is_viewed = desc.camera.is_some();
+    let on_ground = match given.ground {
+        Ground::UnderBare => !is_viewed && !given.light,
+        Ground::Laid => true,
+        Ground::Missing => false,
+    };
+    let extent = extent(desc);
+    if !is_viewed {
+        let filled = if on_ground { FILLED_ON_GROUND } else { FILLED };
+        if frame(desc, extent, filled) {
+            report.note("no-camera", "the file has no camera: the whole scene is framed", whole);
+        }
+    }
+    if !given.light {
+        studio::light(desc);
+        report.note("no-light", "the file has no light: a studio lights it, exposed for it", whole);
+    }
+    if let Some(extent) = extent.filter(|_| on_ground) {
+        studio::ground(desc, extent);
+        let message = "a ground is laid under the model: --no-ground leaves it out";
+        report.note("ground", message, whole);
+    }
+}
+
+/// The least and the greatest corner of the box around everything; `None` where there is nothing that has one.
+fn extent(desc: &SceneDesc) -> Option<[[f64; 3]; 2]> {
     let (mut least, mut most) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     points(desc, &mut |p| {
         for i in 0..3 {
@@ -33,20 +114,27 @@ pub(crate) fn frame(desc: &mut SceneDesc) -> bool {
         }
     });
     let size = [0, 1, 2].map(|i| most[i] - least[i]);
+    let is_usable = size.iter().all(|x| x.is_finite()) && size.iter().any(|x| *x > 0.0);
+    is_usable.then_some([least, most])
+}
+
+/// Looks at the whole scene, whose meshes are all in place and which has this extent, from the front, right and above (+z is the
+/// front, +y up). Whether there is anything to look at; the camera is set in any case.
+fn frame(desc: &mut SceneDesc, extent: Option<[[f64; 3]; 2]>, filled: f64) -> bool {
     desc.film.size = SIZE;
     desc.camera = Some(Camera { position: [0.0, 0.0, 3.0], ..Camera::default() }.into());
-    if !size.iter().all(|x| x.is_finite()) || size.iter().all(|x| *x <= 0.0) {
-        return false;
-    }
-    let depth = size[2] / size[0].max(size[1]);
-    let share = ((depth - FLAT[0]) / (FLAT[1] - FLAT[0])).clamp(0.0, 1.0);
-    let [azimuth, height] = FROM.map(|degrees| (share * degrees).to_radians());
+    let Some([least, most]) = extent else { return false };
+    let size = [0, 1, 2].map(|i| most[i] - least[i]);
+    let ramp = |x: f64, [from, to]: [f64; 2]| ((x - from) / (to - from)).clamp(0.0, 1.0);
+    let share = ramp(size[2] / size[0].max(size[1]), FLAT);
+    let above = FURTHER_ABOVE * (1.0 - ramp(size[1] / size[0].max(size[2]), LOW));
+    let [azimuth, height] = [FROM[0], FROM[1] + above].map(|degrees| (share * degrees).to_radians());
     let back = [azimuth.sin() * height.cos(), height.sin(), azimuth.cos() * height.cos()];
     let right = unit(cross([0.0, 1.0, 0.0], back)).unwrap_or([1.0, 0.0, 0.0]);
     let up = cross(back, right);
     // A point p is within the side planes of a pyramid of slope s whose tip is c where ±(p − c)·x ≤ s·(c − p)·z: each side
     // wants c·z·s ± c·x to reach the greatest p·z·s ± p·x.
-    let tan = (FOV / 2.0).to_radians().tan() * FILLED;
+    let tan = (FOV / 2.0).to_radians().tan() * filled;
     let slopes = [tan * ASPECT, tan];
     let mut reach = [[f64::NEG_INFINITY; 2]; 2];
     let (mut near, mut far) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -128,71 +216,6 @@ fn matrix(steps: &TransformSteps) -> Matrix {
     })
 }
 
-/// Columns and rows of the sky.
-const SKY: [usize; 2] = [256, 128];
-
-/// Adds a sky: grey, brighter above, with a large lamp in front on the left above and a weaker one behind on the right. What is
-/// white and diffuse looks about as bright as white.
-pub(crate) fn light(desc: &mut SceneDesc) {
-    let image = EmbeddedImage { name: "studio.hdr".into(), bytes: studio().into() };
-    let kind = LightKind::Sky {
-        source: ImageSource::Embedded(image),
-        mapping: SkyMapping::LatLong,
-        scale: [1.0; 3],
-        transform: Vec::new(),
-    };
-    desc.lights.push(Light { name: Some("sky".into()), light_group: None, kind }.into());
-}
-
-/// A direction by degrees to the right of +z and above the horizon.
-fn toward(azimuth: f64, height: f64) -> [f64; 3] {
-    let [a, h] = [azimuth, height].map(f64::to_radians);
-    [a.sin() * h.cos(), h.sin(), a.cos() * h.cos()]
-}
-
-/// Radiance of the sky from a direction.
-fn radiance(w: [f64; 3]) -> [f64; 3] {
-    let ramp = |x: f64, from: f64, to: f64| {
-        let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
-        t * t * (3.0 - 2.0 * t)
-    };
-    let (ground, horizon, zenith) = ([0.16, 0.15, 0.14], [0.30, 0.30, 0.30], [0.40, 0.43, 0.47]);
-    let (a, b, t) = if w[1] < 0.0 {
-        (horizon, ground, ramp(-w[1], 0.0, 0.5))
-    } else {
-        (horizon, zenith, ramp(w[1], 0.0, 1.0))
-    };
-    let lamp = |axis: [f64; 3], inner: f64, outer: f64| {
-        ramp(dot(w, axis), outer.to_radians().cos(), inner.to_radians().cos())
-    };
-    let key = 8.0 * lamp(toward(-40.0, 48.0), 16.0, 22.0);
-    let rim = 3.0 * lamp(toward(150.0, 30.0), 16.0, 26.0);
-    [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * t + key * [1.0, 0.98, 0.95][i] + rim * [0.95, 0.98, 1.0][i])
-}
-
-/// The sky as a Radiance picture (Ward 1991), flat: four bytes a pixel.
-fn studio() -> Vec<u8> {
-    let [width, height] = SKY;
-    let mut out = format!("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {height} +X {width}\n").into_bytes();
-    for row in 0..height {
-        let theta = PI * (row as f64 + 0.5) / height as f64;
-        for column in 0..width {
-            // The middle is +z, the left quarter +x.
-            let phi = 2.0 * PI * (0.5 - (column as f64 + 0.5) / width as f64);
-            let rgb = radiance([theta.sin() * phi.sin(), theta.cos(), theta.sin() * phi.cos()]);
-            out.extend(rgbe(rgb));
-        }
-    }
-    out
-}
-
-/// Three mantissas and the exponent that they share.
-fn rgbe(rgb: [f64; 3]) -> [u8; 4] {
-    let exponent = rgb.iter().copied().fold(f64::MIN_POSITIVE, f64::max).log2().floor() as i32 + 1;
-    let [r, g, b] = rgb.map(|x| (x * 256.0 / f64::from(exponent).exp2()) as u8);
-    [r, g, b, (exponent + 128) as u8]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -238,35 +261,14 @@ mod tests {
             for shape in [[1.0, 1.0, 1.0], [5.0, 0.1, 3.0], [0.1, 4.0, 0.1], [1.0, 2.0, 0.0]] {
                 let at = |k: usize, i: usize| (if k >> i & 1 == 0 { 0.0 } else { shape[i] } + 7.0) * scale;
                 let mut desc = cloud((0..8).map(|k| [0, 1, 2].map(|i| at(k, i) as f32)).collect());
-                assert!(frame(&mut desc));
+                let around = super::extent(&desc);
+                assert!(frame(&mut desc, around, FILLED));
                 let [x, y] = extent(&desc);
                 assert!(x.max(y) <= FILLED + 1e-3 && x.max(y) > FILLED - 1e-2, "{shape:?}: {x} {y}");
             }
         }
-        assert!(!frame(&mut SceneDesc::default()));
-        assert!(!frame(&mut cloud(vec![[1.0; 3]; 3])));
-    }
-
-    #[test]
-    fn white_looks_white_under_the_sky() {
-        // Irradiance over π on planes that face up and to the front.
-        let n = 200;
-        for (normal, range) in
-            [([0.0, 1.0, 0.0], 0.8..1.3), ([0.0, 0.0, 1.0], 0.6..1.3), ([0.0, -1.0, 0.0], 0.1..0.4)]
-        {
-            let mut sum = 0.0;
-            for i in 0..n {
-                let y = (i as f64 + 0.5) / n as f64 * 2.0 - 1.0;
-                for j in 0..2 * n {
-                    let phi = PI * (j as f64 + 0.5) / n as f64;
-                    let r = (1.0 - y * y).sqrt();
-                    let w = [r * phi.cos(), y, r * phi.sin()];
-                    sum += radiance(w)[1] * dot(w, normal).max(0.0);
-                }
-            }
-            let white = sum * 4.0 * PI / (2 * n * n) as f64 / PI;
-            assert!(range.contains(&white), "{normal:?} {white}");
-        }
-        assert_eq!(rgbe([0.5, 0.25, 1.0]), [64, 32, 128, 129]);
+        assert!(super::extent(&SceneDesc::default()).is_none());
+        assert!(super::extent(&cloud(vec![[1.0; 3]; 3])).is_none());
+        assert!(!frame(&mut SceneDesc::default(), None, FILLED));
     }
 }

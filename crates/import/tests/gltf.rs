@@ -26,8 +26,9 @@ impl Files {
         path
     }
 
+    /// Without a ground, so that objects are those of the file.
     fn load(&self, text: &str) -> Loaded {
-        load(&self.write("scene.gltf", text), &[])
+        load(&self.write("scene.gltf", text), &["stage.ground=false".into()])
     }
 }
 
@@ -176,6 +177,20 @@ fn a_triangle_framed_and_lit() {
     assert!(matches!(desc.lights[0].kind, LightKind::Sky { .. }));
     let p = principled(&desc);
     assert_eq!((&p.metallic, &p.roughness), (&FloatDesc::Value(1.0), &Roughness::from(1.0)));
+}
+
+#[test]
+fn a_camera_of_its_own_shows_no_ground() {
+    let mut bin = Bin::default();
+    bin.vec3(&TRIANGLE);
+    let rest = r#""nodes":[{"mesh":0},{"camera":0,"translation":[0,0,5]}],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+        "cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":0.1}}]"#;
+    let files = Files::new();
+    let path = files.write("scene.gltf", bin.scene(rest));
+    let desc = good(load(&path, &[]));
+    assert_eq!((desc.objects.len(), desc.lights.len()), (1, 3));
+    assert_eq!(good(load(&path, &["stage.ground=true".into()])).objects.len(), 2);
+    assert_eq!(desc.camera.unwrap().position, [0.0, 0.0, 5.0]);
 }
 
 #[test]

@@ -57,12 +57,76 @@ fn principled(desc: &SceneDesc) -> &Principled {
 fn a_model_alone_is_grey_framed_and_lit() {
     let files = Files::new();
     let desc = good(load(&files.write("a.OBJ", format!("{QUAD}f 1 2 3 4\n")), &[]));
-    assert_eq!(desc.objects.len(), 1);
+    assert_eq!(desc.objects.len(), 2);
     assert!(
         matches!(&desc.objects[0].shape.value, Shape::Triangles { indices, normals: Normals::Smooth { .. }, .. } if indices.len() == 2)
     );
     assert!(desc.camera.is_some() && matches!(desc.lights[0].kind, LightKind::Sky { .. }));
     assert_eq!(principled(&desc).base_color, ColorDesc::Rgb([0.6; 3]));
+}
+
+/// What lies under a model, if anything does.
+fn ground(desc: &SceneDesc) -> Option<&Object> {
+    desc.objects.iter().map(|object| &object.value).find(|object| object.name.as_deref() == Some("ground"))
+}
+
+#[test]
+fn a_bare_model_stands_on_a_ground() {
+    let files = Files::new();
+    let text = "v 10 2 0\nv 14 2 0\nv 14 3 3\nusemtl ground\nf 1 2 3\n";
+    let path = files.write("a.obj", text);
+    let loaded = load(&path, &[]);
+    let said = loaded.render();
+    assert!(said.contains("a ground is laid under the model: --no-ground leaves it out"), "{said}");
+    // The object is called after its material: the ground has another name, and another material.
+    let desc = loaded.desc.unwrap();
+    let names: Vec<_> = desc.objects.iter().filter_map(|o| o.name.as_deref()).collect();
+    assert_eq!(names, ["ground", "ground-2"]);
+    let Shape::Triangles { positions, colors, indices, .. } = &desc.objects[1].shape.value else { panic!() };
+    // Just below the lowest point, level, around the middle, far out: there it is clear.
+    assert!(positions.iter().all(|p| p[1] < 2.0 && p[1] > 2.0 - 1e-3 * 5.0));
+    assert_eq!([positions[0][0], positions[0][2]], [12.0, 1.5]);
+    let far = |p: &[f32; 3]| (p[0] - 12.0).hypot(p[2] - 1.5);
+    for (p, color) in positions.iter().zip(colors) {
+        assert_eq!(color[3], if far(p) > 10.0 { 0.0 } else { 1.0 });
+    }
+    assert!(positions.iter().any(|p| far(p) > 10.0));
+    // Every triangle faces up.
+    for t in indices {
+        let [a, b, c] = t.map(|i| positions[i as usize]);
+        let up = (b[2] - a[2]) * (c[0] - a[0]) - (b[0] - a[0]) * (c[2] - a[2]);
+        assert!(up > 0.0, "{t:?}");
+    }
+    let asked = |value: &str| load(&path, &[format!("stage.ground={value}")]);
+    let without = asked("false");
+    assert!(!without.render().contains("note[ground]"), "{}", without.render());
+    assert_eq!(without.desc.unwrap().objects.len(), 1);
+    assert!(asked("perhaps").desc.is_none() && asked("perhaps").render().contains("stage.ground=true"));
+}
+
+#[test]
+fn what_brings_its_light_gets_a_ground_on_request() {
+    let files = Files::new();
+    files.write("m.mtl", "newmtl lamp\nKe 3 2 1\n");
+    let path = files.write("m.obj", format!("mtllib m.mtl\n{QUAD}usemtl lamp\nf 1 2 3 4\n"));
+    let plain = good(load(&path, &[]));
+    assert!(ground(&plain).is_none() && plain.lights.is_empty());
+    let asked = good(load(&path, &["stage.ground = true".into()]));
+    assert!(ground(&asked).is_some() && asked.lights.is_empty());
+    // Not under whole scenes.
+    for (name, text) in
+        [("s.toml", "[camera]\n"), ("s.pbrt", "WorldBegin\n"), ("s.xml", "<scene version=\"3.0.0\"/>")]
+    {
+        let path = files.write(name, text);
+        let refused = load(&path, &["stage.ground=true".into()]);
+        assert!(
+            refused.desc.is_none() && refused.render().contains("a whole scene, not a model"),
+            "{}",
+            refused.render()
+        );
+        let told = load(&path, &["stage.ground=false".into()]);
+        assert!(told.render().contains("note[ground]"), "{}", told.render());
+    }
 }
 
 #[test]

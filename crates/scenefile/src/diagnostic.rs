@@ -155,6 +155,8 @@ pub const CODES: &[(&str, &str)] = &[
     ("mesh", "Another program's scene: a mesh is damaged, or says what makes no sense."),
     ("spectrum", "Another program's scene: a spectrum makes no sense."),
     ("camera", "Which of several cameras is used (a note)."),
+    ("ground", "Whether a ground is laid under a model (a note)."),
+    ("integrator", "What the integrator that a file asks for means here (a note)."),
     ("scene", "Which of several scenes is rendered (a note)."),
     ("more", "Further mistakes were left out."),
 ];

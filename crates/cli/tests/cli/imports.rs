@@ -96,3 +96,52 @@ fn doubts_are_said_or_are_errors() {
     let set = place.ok(&["info", "a.pbrt", "--set", "render.seed=3"]);
     assert!(set.out.contains("seed 3"), "{}", set.out);
 }
+
+#[test]
+fn the_ground_of_a_model_fades_into_its_surround() {
+    let place = Place::new();
+    place.write("a.obj", "v 0 0 0\nv 0.02 0 0\nv 0 0.02 0\nv 0 0 0.02\nf 1 2 3\nf 1 3 4\n");
+    // From far above: the ground in the middle, its edge around it, what shines below it in the corners.
+    let ground = place.ok(&["info", "a.obj"]);
+    assert!(
+        ground.err.contains("a ground is laid under the model: --no-ground leaves it out"),
+        "{}",
+        ground.err
+    );
+    let render = [
+        "render",
+        "a.obj",
+        "-q",
+        "--size",
+        "24x24",
+        "--passes",
+        "200",
+        "--camera",
+        "0.01,1,0.0101:0.01,0,0.01:20",
+    ];
+    place.ok(&[&render[..], &["-o", "with.exr"]].concat());
+    place.ok(&[&render[..], &["--no-ground", "-o", "without.exr"]].concat());
+    let read = |name: &str| nephroid::RgbImage::read(&place.path(name)).unwrap();
+    let (with, without) = (read("with.exr"), read("without.exr"));
+    let mut counts = [0; 2];
+    for (i, (a, b)) in with.pixels().iter().zip(without.pixels()).enumerate() {
+        let far = ((i % 24) as f32 - 11.5).hypot((i / 24) as f32 - 11.5);
+        for c in 0..3 {
+            // The model and what it shades.
+            if far > 4.0 {
+                assert!((a[c] - b[c]).abs() < 0.05 * b[c], "pixel {i}: {a:?} {b:?}");
+            }
+        }
+        counts[usize::from(a != b)] += 1;
+    }
+    assert!(counts.iter().all(|n| *n > 50), "there is ground, and what lies beyond it: {counts:?}");
+    let seen = place.ok(&["info", "a.obj", "--no-ground"]);
+    assert!(
+        !seen.err.contains("ground") && seen.out.contains("(0, 0, 0) to (0.02, 0.02, 0.02)"),
+        "{} {}",
+        seen.err,
+        seen.out
+    );
+    let asked = place.run(&["info", "a.obj", "--ground", "--no-ground"]);
+    assert_eq!(asked.code, Some(2));
+}

@@ -29,7 +29,7 @@ use scenefile::{Diagnostic, FileId, Loaded, Sources, Span};
 
 use crate::file::read_plain;
 use crate::report::Report;
-use crate::stage;
+use crate::stage::{self, Given, Ground};
 use accessor::Source;
 use bytes::Buffers;
 use fault::{Fault, Known};
@@ -65,7 +65,7 @@ struct Importer<'t> {
 }
 
 /// Reads and checks a scene. A file that cannot be read is a diagnostic like any other.
-pub(crate) fn load(path: &Path) -> Loaded {
+pub(crate) fn load(path: &Path, ground: Ground) -> Loaded {
     let mut sources = Sources::default();
     let read = read_plain(path).and_then(bytes::open);
     let mut container = match read {
@@ -80,10 +80,11 @@ pub(crate) fn load(path: &Path) -> Loaded {
     };
     let text = std::mem::take(&mut container.text);
     let base = path.parent().unwrap_or(Path::new(""));
-    let (desc, diagnostics) = match json::parse(&text).and_then(|root| import(&root, &mut container, base)) {
-        Ok((desc, diagnostics)) => (desc, diagnostics),
-        Err(fault) => (None, vec![fault.diagnostic()]),
-    };
+    let (desc, diagnostics) =
+        match json::parse(&text).and_then(|root| import(&root, &mut container, base, ground)) {
+            Ok((desc, diagnostics)) => (desc, diagnostics),
+            Err(fault) => (None, vec![fault.diagnostic()]),
+        };
     sources.add(path, text);
     Loaded { desc, diagnostics, sources }
 }
@@ -92,6 +93,7 @@ fn import(
     root: &Value<'_>,
     container: &mut bytes::Container,
     base: &Path,
+    ground: Ground,
 ) -> Known<(Option<SceneDesc>, Vec<Diagnostic>)> {
     let version = root.get("asset").map(|asset| asset.text("version")).transpose()?.flatten();
     if !version.is_some_and(|v| v.starts_with("2.")) {
@@ -118,7 +120,7 @@ fn import(
     };
     importer.extensions()?;
     importer.scene()?;
-    Ok(importer.finish())
+    Ok(importer.finish(ground))
 }
 
 impl<'t> Importer<'t> {
@@ -166,15 +168,10 @@ impl<'t> Importer<'t> {
         }
     }
 
-    fn finish(mut self) -> (Option<SceneDesc>, Vec<Diagnostic>) {
+    fn finish(mut self, ground: Ground) -> (Option<SceneDesc>, Vec<Diagnostic>) {
         if !self.report.has_error() {
-            if self.desc.camera.is_none() && stage::frame(&mut self.desc) {
-                self.report.note("no-camera", "the file has no camera: the whole scene is framed", WHOLE);
-            }
-            if self.desc.lights.is_empty() && !self.shines {
-                stage::light(&mut self.desc);
-                self.report.note("no-light", "the file has no light: a soft sky lights it", WHOLE);
-            }
+            let light = !self.desc.lights.is_empty() || self.shines;
+            stage::complete(&mut self.desc, Given { light, ground }, &mut self.report);
             scenefile::check(&self.desc).into_iter().for_each(|d| self.report.push(d));
         }
         let diagnostics = self.report.finish();

@@ -341,6 +341,7 @@ impl Importer {
                 if let Some(n) = plugin.number(report, "max_passes").filter(|n| *n >= 1.0) {
                     self.desc.render.passes = (n as u32).clamp(1, 4_194_304);
                 }
+                report.asks_for_sppm(&self.desc.sppm, plugin.span);
                 IntegratorKind::Sppm
             }
             "direct" => IntegratorKind::Auto,

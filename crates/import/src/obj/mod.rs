@@ -15,6 +15,7 @@ use scenefile::{FileId, Loaded, Sourced, Sources, Span};
 use crate::file::read_plain;
 use crate::ply;
 use crate::report::Report;
+use crate::stage::Ground;
 use mtl::Mtl;
 
 /// Bytes of a material file, at most.
@@ -42,7 +43,7 @@ struct Importer {
 }
 
 /// Reads a model, framed and lit.
-pub(crate) fn load(path: &Path) -> Loaded {
+pub(crate) fn load(path: &Path, ground: Ground) -> Loaded {
     let mut importer = Importer {
         report: Report::default(),
         sources: Sources::default(),
@@ -70,7 +71,7 @@ pub(crate) fn load(path: &Path) -> Loaded {
         Ok(model) => importer.model(model, &places),
         Err(diagnostic) => importer.report.push(diagnostic),
     }
-    ply::finish(importer.desc, importer.report, importer.sources)
+    ply::finish(importer.desc, importer.report, importer.sources, ground)
 }
 
 /// Where a file first names each material and each library.

@@ -164,6 +164,7 @@ impl Importer {
                 if let Some(n) = params.number("iterations").or(params.number("numiterations")) {
                     self.desc.render.passes = (n as u32).clamp(1, 4_194_304);
                 }
+                report.asks_for_sppm(&self.desc.sppm, params.span);
                 IntegratorKind::Sppm
             }
             "whitted" | "directlighting" | "ao" | "ambientocclusion" | "function" => {

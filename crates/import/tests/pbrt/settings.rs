@@ -13,7 +13,15 @@ fn settings_and_their_defaults() {
     assert_eq!((set.film.size, set.render.passes, set.render.max_depth), ([64, 32], 15, Some(7)));
     assert_eq!(set.render.integrator, IntegratorKind::Auto);
     let sppm = "Integrator \"sppm\" \"integer photonsperiteration\" 5000 \"float radius\" .25\n";
-    let sppm = desc(&format!("{sppm}{HEAD}{TRIANGLE}"));
+    let loaded = read(&format!("{sppm}{HEAD}{TRIANGLE}"));
+    let said = "the file asks for `sppm`, with a radius of 0.25 and 5000 photons a pass";
+    assert!(
+        loaded.render().contains(said) && loaded.render().contains("--integrator auto"),
+        "{}",
+        loaded.render()
+    );
+    assert_eq!(loaded.diagnostics.len(), 1);
+    let sppm = loaded.desc.unwrap();
     assert_eq!(
         (sppm.render.integrator, sppm.sppm.photons, sppm.sppm.radius),
         (IntegratorKind::Sppm, Some(5000), Some(0.25))
