@@ -138,6 +138,13 @@ pub fn ply(data: &[u8]) {
     }
 }
 
+/// Loose triangles in text or binary.
+pub fn stl(data: &[u8]) {
+    if let Ok(mesh) = mesh::stl::parse(data) {
+        mesh.validate().expect("a mesh that was read is valid");
+    }
+}
+
 /// A texture.
 pub fn image(data: &[u8]) {
     use scene::texture::{Encoding, ImageTexture};

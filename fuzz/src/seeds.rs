@@ -31,6 +31,7 @@ fn of(target: &str) -> Vec<Vec<u8>> {
         "glb" => vec![glb()],
         "obj" => texts(&OBJ),
         "ply" => ply(),
+        "stl" => stl(),
         "image" => images(),
         "spd" => texts(&["400 0.5\n500 1 # nm\n600 0.25\n", "300,1\n800,2\n"]),
         "film" => vec![as_records(&film_bytes())],
@@ -50,6 +51,16 @@ pub fn neighbours(folder: &Path) {
     write("a.spd", b"400 0.5\n700 1\n");
     write("b.pbrt", b"Shape \"disk\"\nInclude \"b.pbrt\"\n");
     write("a.bin", &[0; 64]);
+}
+
+/// A triangle in text and one in binary.
+fn stl() -> Vec<Vec<u8>> {
+    let text = "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n";
+    let mut binary = vec![0; 80];
+    binary.extend(1u32.to_le_bytes());
+    [0.0f32, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].iter().for_each(|x| binary.extend(x.to_le_bytes()));
+    binary.extend([0; 2]);
+    vec![text.as_bytes().to_vec(), binary]
 }
 
 /// Scenes of the repository and one example of every section of the format.

@@ -59,7 +59,7 @@ pub enum Command {
 /// A scene and what replaces parts of it.
 #[derive(Debug, Args)]
 pub struct SceneArgs {
-    /// The scene file: TOML, .pbrt (version 4, or 3 where its names differ), .xml (Mitsuba), .gltf, .glb, .obj or .ply.
+    /// The scene file: TOML, .pbrt (version 4, or 3 where its names differ), .xml (Mitsuba), .gltf, .glb, .obj, .ply or .stl.
     pub scene: PathBuf,
 
     /// Its changes.
@@ -97,7 +97,7 @@ pub struct Changes {
     #[arg(long, value_name = "X,Y,Z:X,Y,Z:FOV", allow_hyphen_values = true, value_parser = values::camera)]
     pub camera: Option<CameraSets>,
 
-    /// Lay no ground under a model (glTF, OBJ, PLY) that has neither camera nor light. Short for --set stage.ground=false.
+    /// Lay no ground under a model (glTF, OBJ, PLY, STL) that has neither camera nor light. Short for --set stage.ground=false.
     #[arg(long)]
     pub no_ground: bool,
 
@@ -175,7 +175,7 @@ pub struct DisplayArgs {
 /// Arguments of `render`.
 #[derive(Debug, Args)]
 pub struct RenderArgs {
-    /// The scene files: TOML, .pbrt (version 4, or 3 where its names differ), .xml (Mitsuba), .gltf, .glb, .obj or .ply.
+    /// The scene files: TOML, .pbrt (version 4, or 3 where its names differ), .xml (Mitsuba), .gltf, .glb, .obj, .ply or .stl.
     #[arg(value_name = "SCENE", required = true)]
     pub scenes: Vec<PathBuf>,
 

@@ -83,6 +83,12 @@ const KINDS: &[Kind] = &[
         "a COLLADA document",
         "open it in a program that reads it, as Blender up to 4.5, and export glTF (.glb)",
     ),
+    kind(
+        &["3mf"],
+        &[],
+        "a model for printing (3MF)",
+        "export STL from the program that wrote it, or open it in a slicer and export STL from there",
+    ),
     kind(&["max", "3ds"], &[], "a scene of 3ds Max", EXPORT),
     kind(&["c4d"], &[], "a scene of Cinema 4D", EXPORT),
     kind(&["ma", "mb"], &[b"//Maya"], "a scene of Maya", EXPORT),

@@ -1,7 +1,7 @@
 //! Scenes of other programs as [`SceneDesc`](scenefile::SceneDesc)s.
 //!
 //! [`load`] reads what Nephroid knows, by the file's extension: its own TOML, pbrt-v4 (v3 where its names differ),
-//! Mitsuba 3 (0.6 where it differs), glTF 2.0, and the mesh files OBJ and PLY.
+//! Mitsuba 3 (0.6 where it differs), glTF 2.0, and the mesh files OBJ, PLY and STL.
 //! What a format has and Nephroid does not is said once, with its place and what is done instead, as a warning.
 //! [`outsource`] moves large meshes of a description into PLY files, so that it can be written as TOML.
 
@@ -33,11 +33,11 @@ use stage::Ground;
 pub use outsource::{OutsourceError, outsource};
 
 /// Reads a scene in any known format: `.pbrt` and `.pbrt.gz` as pbrt, `.xml` as Mitsuba's, `.gltf` and `.glb` as glTF,
-/// `.obj` and `.ply` as meshes, everything else as TOML.
+/// `.obj`, `.ply` and `.stl` as meshes, everything else as TOML.
 ///
 /// Files of other programs are refused with what to export; a file that is not there with the name of one that may be meant.
 ///
-/// Models (glTF, OBJ, PLY) that lack a camera, a light or both are given a view of the whole, a studio and a ground, which is said
+/// Models (glTF, OBJ, PLY, STL) that lack a camera, a light or both are given a view of the whole, a studio and a ground, which is said
 /// as notes; `stage.ground=false` among `overrides` leaves the ground out, `=true` lays one in any case. Other scenes have none:
 /// for them the first is a note, the second an error.
 ///
@@ -72,7 +72,7 @@ fn refused(path: &Path, why: Diagnostic) -> Loaded {
 fn no_model(path: &Path) -> Diagnostic {
     let message = format!("no ground can be laid under {}: it is a whole scene, not a model", path.display());
     Diagnostic::error("override", message)
-        .help("models are glTF, OBJ and PLY files; in a scene of your own, add a [[objects]] table with a `quad` or a `disk`")
+        .help("models are glTF, OBJ, PLY and STL files; in a scene of your own, add a [[objects]] table with a `quad` or a `disk`")
 }
 
 fn load_as(format: Format, path: &Path, ground: Ground, overrides: Vec<String>) -> Loaded {
@@ -86,7 +86,8 @@ fn load_as(format: Format, path: &Path, ground: Ground, overrides: Vec<String>) 
         Format::Pbrt => pbrt::load(path),
         Format::Gltf => gltf::load(path, ground),
         Format::Obj => obj::load(path, ground),
-        Format::Ply => ply::load(path, ground),
+        Format::Ply => ply::load(path, ply::Kind::Ply, ground),
+        Format::Stl => ply::load(path, ply::Kind::Stl, ground),
     };
     if overrides.is_empty() { loaded } else { scenefile::replace(loaded, path, &overrides) }
 }
@@ -123,13 +124,15 @@ pub enum Format {
     Obj,
     /// A mesh in PLY.
     Ply,
+    /// A mesh in STL, text or binary.
+    Stl,
 }
 
 impl Format {
     /// Whether files of it are often things alone, without camera and light.
     fn is_model(self) -> bool {
         match self {
-            Self::Gltf | Self::Obj | Self::Ply => true,
+            Self::Gltf | Self::Obj | Self::Ply | Self::Stl => true,
             Self::Native | Self::Pbrt | Self::Mitsuba => false,
         }
     }
@@ -144,6 +147,7 @@ impl Format {
             () if is(".gltf") || is(".glb") => Self::Gltf,
             () if is(".obj") => Self::Obj,
             () if is(".ply") => Self::Ply,
+            () if is(".stl") => Self::Stl,
             () => Self::Native,
         }
     }

@@ -1,14 +1,16 @@
-//! A mesh file alone: PLY, and what it has in common with OBJ.
+//! A mesh file alone: PLY and STL, and what they have in common with OBJ.
 
 use std::path::Path;
 
 use mesh::{MeshError, Place, TriangleMesh};
 use scenefile::desc::{
     Channel, ColorDesc, Material, MaterialRef, Normals, Object, Principled, SceneDesc, Shape, Texture,
+    TransformSteps,
 };
 use scenefile::{Diagnostic, FileId, Loaded, Sources, Span};
 
 use crate::file::read_plain;
+use crate::matrix::Matrix;
 use crate::report::Report;
 use crate::stage::{self, Given, Ground};
 
@@ -17,11 +19,37 @@ const CREASE: f32 = 35.0;
 /// The colour of what has none.
 pub(crate) const GREY: f32 = 0.6;
 
+/// A format of meshes alone.
+#[derive(Clone, Copy)]
+pub(crate) enum Kind {
+    /// +y is taken for up, as in glTF.
+    Ply,
+    /// +z is up, as in programs for manufacture, and −y the front.
+    Stl,
+}
+
+impl Kind {
+    fn parse(self, bytes: &[u8]) -> Result<TriangleMesh, MeshError> {
+        match self {
+            Self::Ply => mesh::ply::parse(bytes),
+            Self::Stl => mesh::stl::parse(bytes),
+        }
+    }
+
+    /// To +y up and +z as the front.
+    fn upright(self) -> TransformSteps {
+        match self {
+            Self::Ply => TransformSteps::new(),
+            Self::Stl => Matrix::rows([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]]).steps(),
+        }
+    }
+}
+
 /// Reads a mesh, framed and lit.
-pub(crate) fn load(path: &Path, ground: Ground) -> Loaded {
+pub(crate) fn load(path: &Path, kind: Kind, ground: Ground) -> Loaded {
     let read = read_plain(path);
     let mesh = match read {
-        Ok(bytes) => mesh::ply::parse(&bytes).map_err(|e| fault(e, &bytes)),
+        Ok(bytes) => kind.parse(&bytes).map_err(|e| fault(e, &bytes)),
         Err(why) => Err(unreadable(path, &why)),
     };
     let mut sources = Sources::default();
@@ -39,8 +67,11 @@ pub(crate) fn load(path: &Path, ground: Ground) -> Loaded {
             }
             desc.materials.insert("surface".into(), Material::from(material).into());
             let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-            let object =
-                Object { name: Some(name), ..Object::new(shape(mesh), MaterialRef::from("surface")) };
+            let object = Object {
+                name: Some(name),
+                transform: kind.upright(),
+                ..Object::new(shape(mesh), MaterialRef::from("surface"))
+            };
             desc.objects.push(object.into());
             // Colours on points of scans are no reason for holes, so that opacity of vertices is not asked for.
             finish(desc, report, sources, ground)

@@ -222,3 +222,34 @@ fn a_ply_shows_its_colours() {
     let cut = load(&files.write("b.ply", &text[..text.len() - 9]), &[]);
     assert!(cut.desc.is_none() && cut.render().contains("b.ply"), "{}", cut.render());
 }
+
+#[test]
+fn an_stl_stands_up() {
+    let files = Files::new();
+    // 2 wide, 3 deep, 5 high, where +z is up.
+    let facet = |p: [&str; 3]| {
+        format!(
+            "facet normal 0 0 0\nouter loop\nvertex {}\nvertex {}\nvertex {}\nendloop\nendfacet\n",
+            p[0], p[1], p[2]
+        )
+    };
+    let text = format!(
+        "solid\n{}{}endsolid\n",
+        facet(["0 0 0", "2 0 0", "0 0 5"]),
+        facet(["0 0 0", "0 0 5", "0 -3 0"])
+    );
+    let path = files.write("part.STL", text);
+    let desc = good(load(&path, &[]));
+    assert_eq!(desc.objects[0].name.as_deref(), Some("part"));
+    let Shape::Triangles { positions, normals: Normals::Smooth { .. }, .. } = &desc.objects[0].shape.value
+    else {
+        panic!()
+    };
+    assert_eq!(positions.len(), 4);
+    let Shape::Triangles { positions, .. } = &ground(&desc).unwrap().shape.value else { panic!() };
+    // Under z = 0 of the file; its −y is our +z, the front.
+    assert!(positions[0][1] < 0.0 && positions[0][1] > -1e-2);
+    assert_eq!([positions[0][0], positions[0][2]], [1.0, 1.5]);
+    let cut = load(&files.write("b.stl", "solid\nfacet\n"), &[]);
+    assert!(cut.desc.is_none() && cut.render().contains("`normal` is expected"), "{}", cut.render());
+}

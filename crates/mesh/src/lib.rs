@@ -1,6 +1,6 @@
 //! Triangle meshes: readers and generators.
 //!
-//! [`read`] loads OBJ and PLY files, [`shapes`] makes the shapes that scene files name. Every mesh that comes out of
+//! [`read`] loads OBJ, PLY and STL files, [`shapes`] makes the shapes that scene files name. Every mesh that comes out of
 //! here satisfies [`TriangleMesh::validate`].
 
 mod assemble;
@@ -10,6 +10,7 @@ pub mod ply;
 mod polygon;
 mod read;
 pub mod shapes;
+pub mod stl;
 mod text;
 mod topology;
 mod triangle_mesh;

@@ -3,14 +3,14 @@ use std::path::Path;
 
 use flate2::read::MultiGzDecoder;
 
-use crate::{MeshError, TriangleMesh, obj, ply};
+use crate::{MeshError, TriangleMesh, obj, ply, stl};
 
 /// How much more a compressed mesh may hold than it has bytes; meshes reach a tenth of it.
 const MOST_GROWTH: u64 = 64;
 /// Bytes that a compressed mesh may hold in any case.
 const SMALL: u64 = 64 << 20;
 
-/// Reads a mesh file by its extension, `.obj`, `.ply` or `.ply.gz` (gzip) in any case.
+/// Reads a mesh file by its extension, `.obj`, `.ply`, `.stl` or `.ply.gz` (gzip) in any case.
 ///
 /// # Errors
 /// Where the file can't be read, has another extension, or is refused by its parser. The error names the path.
@@ -21,6 +21,8 @@ pub fn read(path: impl AsRef<Path>) -> Result<TriangleMesh, MeshError> {
         obj::parse
     } else if name.ends_with(".ply") {
         ply::parse
+    } else if name.ends_with(".stl") {
+        stl::parse
     } else if name.ends_with(".ply.gz") {
         |bytes| ply::parse(&unpacked(bytes)?)
     } else {

@@ -20,8 +20,8 @@ fn extensions_choose_the_reader_and_errors_name_the_path() {
     assert_eq!((error.path.as_deref(), error.place), (Some(bad.as_path()), Place::Line(1)));
     assert!(error.to_string().starts_with(&bad.display().to_string()));
 
-    let error = read(write("c.stl", "solid")).unwrap_err();
-    assert!(error.message.contains("`.stl`") && error.help.contains(".ply"));
+    let error = read(write("c.fbx", "solid")).unwrap_err();
+    assert!(error.message.contains("`.fbx`") && error.help.contains(".ply"));
     let missing = Path::new("no such folder/d.ply");
     assert_eq!(read(missing).unwrap_err().path.as_deref(), Some(missing));
 }

@@ -1,6 +1,6 @@
 //! Damaged files: refused or read as some valid mesh, never a panic, and quickly.
 
-use nephroid_mesh::{TriangleMesh, obj, ply};
+use nephroid_mesh::{TriangleMesh, obj, ply, stl};
 
 /// Steele, Lea & Flood 2014 (SplitMix64).
 struct Numbers(u64);
@@ -50,6 +50,19 @@ fn ply_binary(length: &str) -> Vec<u8> {
     out
 }
 
+const STL: &[u8] =
+    b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1e0 0\nendloop\nendfacet\nendsolid a\n";
+
+fn stl_binary() -> Vec<u8> {
+    let mut out = vec![0; 80];
+    out.extend(2u32.to_le_bytes());
+    for i in 0..2 {
+        (0..12).for_each(|k| out.extend(((k * k + i) as f32).to_le_bytes()));
+        out.extend([0; 2]);
+    }
+    out
+}
+
 fn mutate(original: &[u8], numbers: &mut Numbers) -> Vec<u8> {
     const INTERESTING: [&[u8]; 12] = [
         b"nan",
@@ -94,7 +107,9 @@ fn mutate(original: &[u8], numbers: &mut Numbers) -> Vec<u8> {
 #[test]
 fn damaged_files_never_panic_and_never_give_an_invalid_mesh() {
     type Parser = fn(&[u8]) -> Result<TriangleMesh, nephroid_mesh::MeshError>;
-    let seeds: [(Vec<u8>, Parser); 5] = [
+    let seeds: [(Vec<u8>, Parser); 7] = [
+        (STL.to_vec(), stl::parse),
+        (stl_binary(), stl::parse),
         (OBJ.to_vec(), obj::parse),
         (ply_text(), ply::parse),
         (ply_binary("uchar"), ply::parse),

@@ -72,7 +72,7 @@ pub(crate) const PAGES: &[(&str, &str, &str)] = &[
          \x20                Lights), SketchUp, Cinema 4D, Maya, Houdini, most shops of models\n\
          \x20 .pbrt          pbrt, version 4, or 3 where its names differ\n\
          \x20 .xml           Mitsuba, version 3, or 0.6 where it differs\n\
-         \x20 .obj .ply      meshes; also as objects of a scene (shape = \"mesh\")\n\
+         \x20 .obj .ply .stl meshes; also as objects of a scene (shape = \"mesh\")\n\
          .blend, .fbx, .usd, .dae, .abc and the like are not read: open them in Blender or in the program that\n\
          wrote them, and export glTF. Pictures (.hdr, .exr, .png, .jpg) are textures or surroundings, and\n\
          luminaires (.ies, .ldt) lamps of a scene. `--set` and `--camera` change scenes of all kinds.\n",

@@ -314,7 +314,7 @@ fn names_that_lead_nowhere() {
         "[materials.floor]\nkind = \"diffuse\"\ncolor = { texture = \"chekcer\" }\nnormal_map = \"bumps\"\n\
          [textures.checker]\nkind = \"checker\"\na = 0\nb = { texture = \"checker\" }\n\
          [[objects]]\nname = \"a\"\nshape = \"sphere\"\nmaterial = \"flor\"\n\
-         [[objects]]\nname = \"a\"\nshape = \"mesh\"\nfile = \"cow.stl\"\nmaterial = \"floor\"\n\
+         [[objects]]\nname = \"a\"\nshape = \"mesh\"\nfile = \"cow.fbx\"\nmaterial = \"floor\"\n\
          [[objects]]\nshape = \"sphere\"\n\
          [[instances]]\ngroup = \"trees\"\n",
         expect![[r#"
@@ -355,17 +355,17 @@ fn names_that_lead_nowhere() {
             11 | [[objects]]
                | ----------- the first
 
-            error[unknown-format]: `cow.stl` of object `a` is of no known format
+            error[unknown-format]: `cow.fbx` of object `a` is of no known format
               --> box.toml:18:8
                |
-            18 | file = "cow.stl"
+            18 | file = "cow.fbx"
                |        ^^^^^^^^^
-               = help: known are .obj, .ply, .ply.gz
+               = help: known are .obj, .ply, .ply.gz, .stl
 
-            error[missing-file]: the file `cow.stl` of object `a` is not there
+            error[missing-file]: the file `cow.fbx` of object `a` is not there
               --> box.toml:18:8
                |
-            18 | file = "cow.stl"
+            18 | file = "cow.fbx"
                |        ^^^^^^^^^
                = help: file names start from the folder of the scene file
 

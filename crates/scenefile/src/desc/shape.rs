@@ -78,7 +78,7 @@ pub enum Shape {
     },
     /// A mesh file.
     Mesh {
-        /// OBJ or PLY; see [`resolve`](super::SceneDesc::resolve).
+        /// OBJ, PLY or STL; see [`resolve`](super::SceneDesc::resolve).
         file: Sourced<PathBuf>,
         /// Shading normals.
         normals: Normals,

@@ -92,11 +92,11 @@ pub(super) const SHAPES: &[Variant] = &[
     },
     Variant {
         name: "mesh",
-        doc: "A mesh file, OBJ or PLY.",
+        doc: "A mesh file: OBJ, PLY or STL.",
         keys: &[&[
             key(
                 "file",
-                Kind::File(&["obj", "ply", "ply.gz"]),
+                Kind::File(&["obj", "ply", "ply.gz", "stl"]),
                 "",
                 Required,
                 "The mesh; relative to the scene file.",
