@@ -4,6 +4,7 @@
 //! here satisfies [`TriangleMesh::validate`].
 
 mod assemble;
+mod displace;
 mod error;
 pub mod obj;
 pub mod ply;
@@ -15,6 +16,7 @@ mod text;
 mod topology;
 mod triangle_mesh;
 
+pub use displace::{Subdivided, TooMany};
 pub use error::{MeshError, Place};
 pub use read::read;
 pub use triangle_mesh::TriangleMesh;

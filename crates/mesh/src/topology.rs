@@ -114,12 +114,12 @@ impl TriangleMesh {
 }
 
 /// Any unit vector where the sum is zero: a vertex without area about it.
-fn unit_or_up(sum: DVec3) -> Vec3 {
+pub(crate) fn unit_or_up(sum: DVec3) -> Vec3 {
     sum.normalize_or(DVec3::Y).as_vec3()
 }
 
 /// For each vertex the least index of a vertex at the same position.
-fn weld(positions: &[Vec3]) -> Vec<u32> {
+pub(crate) fn weld(positions: &[Vec3]) -> Vec<u32> {
     // Adding zero turns −0 into +0.
     let key = |p: Vec3| (p + Vec3::ZERO).to_array().map(f32::to_bits);
     let mut order: Vec<([u32; 3], u32)> =

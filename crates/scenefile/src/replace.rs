@@ -111,6 +111,7 @@ fn small(object: &Sourced<Object>) -> Sourced<Object> {
         shape: shape.into(),
         material: object.material.clone(),
         transform: object.transform.clone(),
+        displacement: object.displacement.clone(),
         flip_normals: object.flip_normals,
         emission: object.emission.clone(),
         light_group: object.light_group.clone(),

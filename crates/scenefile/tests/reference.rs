@@ -108,6 +108,7 @@ fn sample(key: &Key, second: bool) -> String {
         Kind::Objects if second => "[{ shape = \"sphere\", material = \"paint\" }]".into(),
         Kind::Objects => "[]".into(),
         Kind::Section("rotate") => "{ axis = [1, 0, 0], degrees = 45 }".into(),
+        Kind::Section("displacement") => "{ texture = \"chess\", scale = 0.5 }".into(),
         Kind::Section(_) => "{ position = [1, 2, 3], target = [2, 5, 1] }".into(),
     }
 }

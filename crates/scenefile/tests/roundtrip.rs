@@ -393,6 +393,11 @@ impl Dice {
             shape: self.shape().into(),
             material,
             transform: self.steps(),
+            displacement: self.coin().then(|| {
+                let edge = if self.coin() { EdgeLength::Units(0.25) } else { EdgeLength::Pixels(1.5) };
+                let scale = self.unit() - 0.5;
+                Displacement { texture: "plain".to_owned().into(), scale, midlevel: self.unit(), edge }.into()
+            }),
             flip_normals: self.coin(),
             emission: emission.map(|amount| {
                 let texture = self.coin().then(|| "plain".to_owned().into());

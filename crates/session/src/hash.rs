@@ -91,6 +91,7 @@ fn without_arrays(desc: &SceneDesc) -> SceneDesc {
             shape: shape.into(),
             material: object.material.clone(),
             transform: object.transform.clone(),
+            displacement: object.displacement.clone(),
             flip_normals: object.flip_normals,
             emission: object.emission.clone(),
             light_group: object.light_group.clone(),

@@ -180,6 +180,7 @@ impl Importer {
             shape: Sourced::at(made.shape, plugin.span),
             material,
             transform: place.steps(),
+            displacement: None,
             flip_normals: made.flipped,
             emission,
             light_group: None,

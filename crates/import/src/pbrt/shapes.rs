@@ -66,6 +66,7 @@ impl Importer {
             shape: Sourced::at(shape, params.span),
             material: Some(MaterialRef::Named(Sourced::at(material, params.span))),
             transform: place.steps(),
+            displacement: None,
             flip_normals: self.graphics.reverse,
             emission,
             light_group: None,

@@ -71,6 +71,9 @@ impl<'d> Library<'d> {
             if let Some(reference) = &object.material {
                 library.resolve(reference);
             }
+            if let Some(displacement) = &object.displacement {
+                library.textures.get(&displacement.texture, Reading::Plain);
+            }
             if let Some(name) = object.emission.as_ref().and_then(|emission| emission.texture.as_ref()) {
                 library.textures.get(name, Reading::Plain);
             }
@@ -420,7 +423,7 @@ impl<'d> Library<'d> {
     }
 
     /// A texture, as factor on emission.
-    pub fn emission(&mut self, name: &'d Sourced<String>) -> Option<u32> {
+    pub fn texture(&mut self, name: &'d Sourced<String>) -> Option<u32> {
         self.textures.get(name, Reading::Plain)
     }
 

@@ -1,5 +1,6 @@
 //! From a description to a scene: resolves names, reads meshes and images, builds the search structures.
 
+mod displace;
 mod lights;
 mod materials;
 mod shaped;
@@ -26,6 +27,7 @@ use crate::{
     Camera, Light, LightId, Material, MaterialId, MaterialKind, MediumStack, Object, Scene, Shape, Survey,
     Target, Targets,
 };
+use displace::{Displacer, Pixels, Within};
 use materials::Library;
 use shapes::Solid;
 
@@ -91,6 +93,8 @@ struct Compiler<'d> {
     /// A point on or at each light, from which the media around it are found.
     light_points: Vec<Option<Vec3>>,
     targets: Vec<Target>,
+    /// What lengths in pixels mean.
+    pixels: Option<Pixels>,
     geometry: Geometry,
     outer: Vec<Outer>,
     outer_names: Vec<String>,
@@ -113,6 +117,7 @@ impl<'d> Compiler<'d> {
             group_names: Vec::new(),
             light_points: Vec::new(),
             targets: Vec::new(),
+            pixels: None,
             geometry: Geometry::default(),
             outer: Vec::new(),
             outer_names: Vec::new(),
@@ -124,7 +129,9 @@ impl<'d> Compiler<'d> {
 
     fn run(mut self) -> Result<(Scene, Vec<Diagnostic>), Vec<Diagnostic>> {
         let camera = self.camera();
-        for placed in self.place(&self.desc.objects, None) {
+        self.pixels = camera.as_ref().map(Pixels::of);
+        let objects: Vec<_> = self.desc.objects.iter().collect();
+        for placed in self.place(&objects, None, Within::World) {
             self.add_object(placed);
         }
         let groups = self.instances();
@@ -146,18 +153,37 @@ impl<'d> Compiler<'d> {
     }
 
     /// Builds the solids of a list of objects, in parallel; what cannot be built is reported.
-    fn place(&mut self, objects: &'d [Sourced<ObjectDesc>], instance: Option<&Transform>) -> Vec<Placed<'d>> {
+    fn place(
+        &mut self,
+        objects: &[&'d Sourced<ObjectDesc>],
+        instance: Option<&Transform>,
+        within: Within<'_>,
+    ) -> Vec<Placed<'d>> {
         let materials: Vec<MaterialId> = objects.iter().map(|o| self.material_of(o)).collect();
-        let desc = self.desc;
+        // Without a camera nothing is rendered: that is said already.
+        let pixels = self.pixels;
+        let displaced: Vec<Option<u32>> = objects
+            .iter()
+            .map(|o| o.displacement.as_ref().and_then(|d| self.library.texture(&d.texture)))
+            .collect();
+        let (desc, textures) = (self.desc, self.library.textures());
         let solids = par::map(objects.len(), |i| {
-            let solid = shapes::build(desc, &objects[i])?;
+            let displacer = displaced[i].zip(objects[i].displacement.as_ref()).zip(pixels);
+            let displacer = displacer.map(|((texture, desc), pixels)| Displacer {
+                desc,
+                textures,
+                texture,
+                pixels,
+                within,
+            });
+            let solid = shapes::build(desc, objects[i], displacer)?;
             match instance {
                 None => Ok(solid),
                 Some(t) => Ok(solid.transformed(t)),
             }
         });
         let mut placed = Vec::new();
-        for ((solid, object), material) in solids.into_iter().zip(objects).zip(materials) {
+        for ((solid, object), material) in solids.into_iter().zip(objects.iter().copied()).zip(materials) {
             match solid {
                 Ok(solid) => placed.push(Placed {
                     solid,
@@ -201,7 +227,7 @@ impl<'d> Compiler<'d> {
                 .map(|light| Some((light, None)))
                 .ok_or("this object shines but has no area"),
             Some(name) => {
-                let texture = self.library.emission(name)?;
+                let texture = self.library.texture(name)?;
                 let shape = placed.solid.shape();
                 let object = Object { shape, material: placed.material, light: None };
                 let textures = self.library.textures();
@@ -291,7 +317,9 @@ impl<'d> Compiler<'d> {
                 }
             };
             let id = *ids.entry(instance.group.as_str()).or_insert_with(|| {
-                let placed = self.place(&group.objects, None);
+                let objects: Vec<_> = group.objects.iter().collect();
+                let placements = self.placements(&instance.group);
+                let placed = self.place(&objects, None, Within::Group(&placements));
                 let still: Vec<Placed<'_>> = placed.into_iter().filter(|p| p.emission.is_none()).collect();
                 solids.push(still.iter().map(|p| p.solid.clone()).collect());
                 groups.push(self.group(still));
@@ -316,13 +344,20 @@ impl<'d> Compiler<'d> {
                     self.outer_names.push(instance.name.as_ref().unwrap_or(&instance.group).clone());
                 }
             }
-            let shining = self.place(&group.objects, Some(&transform));
-            for mut placed in shining.into_iter().filter(|p| p.emission.is_some()) {
+            let shining: Vec<_> = group.objects.iter().filter(|o| o.emission.is_some()).collect();
+            let placements = if shining.is_empty() { Vec::new() } else { self.placements(&instance.group) };
+            for mut placed in self.place(&shining, Some(&transform), Within::Group(&placements)) {
                 placed.material = material.unwrap_or(placed.material);
                 self.add_object(placed);
             }
         }
         groups
+    }
+
+    /// Where all instances of a group stand.
+    fn placements(&self, group: &str) -> Vec<Transform> {
+        let of_group = self.desc.instances.iter().filter(|instance| instance.group.as_str() == group);
+        of_group.filter_map(|instance| shapes::transform(&instance.transform)).collect()
     }
 
     fn group(&mut self, placed: Vec<Placed<'_>>) -> Group {

@@ -5,6 +5,7 @@ use mesh::{MeshError, Place, TriangleMesh, shapes};
 use scenefile::desc::{self, Normals, SceneDesc, Shape as ShapeDesc, TeapotPart, TransformStep};
 use scenefile::{Diagnostic, Sourced, Span};
 
+use super::displace::Displacer;
 use crate::texture::{Encoding, Picture, TextureError, Wanted};
 use crate::{Shape, Target};
 
@@ -19,13 +20,21 @@ pub(super) enum Solid {
 /// Facets around a sphere or disk that has to become a mesh because it is no longer round.
 const FACETS: u32 = 256;
 
-/// The placed solid of an object.
-pub(super) fn build(desc: &SceneDesc, object: &Sourced<desc::Object>) -> Result<Solid, Diagnostic> {
+/// The placed solid of an object, displaced if it has what displaces it.
+pub(super) fn build(
+    desc: &SceneDesc,
+    object: &Sourced<desc::Object>,
+    displacer: Option<Displacer<'_>>,
+) -> Result<Solid, Diagnostic> {
     let span = object.shape.span.or(object.span);
     let wrong = |e: MeshError| Diagnostic::error("bad-shape", e.to_string()).at(span);
     let transform = transform(&object.transform).ok_or_else(|| singular(span))?;
     let solid = solid(desc, &object.shape).map_err(wrong)?;
     let solid = solid.transformed(&transform);
+    let solid = match displacer {
+        Some(displacer) => displacer.apply(solid)?,
+        None => solid,
+    };
     let solid = if object.flip_normals { solid.flipped() } else { solid };
     if let Solid::Mesh(mesh) = &solid {
         mesh.validate().map_err(wrong)?;
@@ -339,14 +348,21 @@ impl Solid {
                 normal: t.normal(normal).normalize(),
                 radius: radius * s,
             },
-            (Self::Sphere { center, radius, flipped }, None) => {
+            (round, None) => Self::Mesh(round.into_mesh().transformed(t)),
+        }
+    }
+
+    /// The triangles; of spheres and disks so many that they look round.
+    pub fn into_mesh(self) -> TriangleMesh {
+        match self {
+            Self::Mesh(mesh) => mesh,
+            Self::Sphere { center, radius, flipped } => {
                 let ball = shapes::uv_sphere(radius, FACETS, FACETS / 2);
-                let ball = place(ball, Affine3A::from_translation(center)).transformed(t);
-                Self::Mesh(if flipped { ball.flipped() } else { ball })
+                let ball = place(ball, Affine3A::from_translation(center));
+                if flipped { ball.flipped() } else { ball }
             }
-            (Self::Disk { center, normal, radius }, None) => {
-                let disk = shapes::disk(radius, FACETS).transformed(&upright(center, normal));
-                Self::Mesh(disk.transformed(t))
+            Self::Disk { center, normal, radius } => {
+                shapes::disk(radius, FACETS).transformed(&upright(center, normal))
             }
         }
     }

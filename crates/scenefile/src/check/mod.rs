@@ -9,8 +9,8 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::Path;
 
 use crate::desc::{
-    ColorDesc, EmissionAmount, FloatDesc, HeightSource, ImageSource, LightKind, MaterialRef, Object,
-    PointAmount, SceneDesc, Shape, Texture, TransformStep, Triple,
+    ColorDesc, EdgeLength, EmissionAmount, FloatDesc, HeightSource, ImageSource, LightKind, MaterialRef,
+    Object, PointAmount, SceneDesc, Shape, Texture, TransformStep, Triple,
 };
 use crate::diagnostic::{Diagnostic, Report, quoted};
 use crate::nearest::nearest;
@@ -289,6 +289,17 @@ impl Checker<'_> {
             && let EmissionAmount::Power { watts, color } = emission.amount
         {
             power(report, what, watts, color, emission.span);
+        }
+        if let Some(displacement) = &object.displacement {
+            self.texture_name(report, &format!("the displacement of {what}"), &displacement.texture);
+            let (EdgeLength::Units(edge) | EdgeLength::Pixels(edge)) = displacement.edge;
+            let finite = displacement.scale.is_finite() && displacement.midlevel.is_finite();
+            if !(finite && edge > 0.0 && edge.is_finite()) {
+                let message = format!(
+                    "the numbers of the displacement of {what} are not finite, or its edges have no length"
+                );
+                report.push(Diagnostic::error("out-of-range", message).at(displacement.span));
+            }
         }
         steps(report, what, &object.transform, object.span);
     }

@@ -484,12 +484,41 @@ pub struct Object {
     pub material: Option<MaterialRef>,
     /// Its placement.
     pub transform: TransformSteps,
+    /// What moves its surface, once it is placed.
+    pub displacement: Option<Sourced<Displacement>>,
     /// Turns the normals to the other side (and with them emission).
     pub flip_normals: bool,
     /// The light it gives off.
     pub emission: Option<Sourced<Emission>>,
     /// The group that its light is counted to in layers; `None`: its name.
     pub light_group: Option<String>,
+}
+
+/// A surface that is moved along its normals by the heights of a texture, cut fine enough to show them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Displacement {
+    /// The name of a texture; the mean of its channels is the height.
+    pub texture: Sourced<String>,
+    /// Scene units that the surface moves out where the texture is 1 above `midlevel`.
+    pub scale: f32,
+    /// The height that stays where it is.
+    pub midlevel: f32,
+    /// How long edges may be.
+    pub edge: EdgeLength,
+}
+
+/// The greatest length of a triangle's edges.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum EdgeLength {
+    /// In scene units, > 0.
+    Units(f32),
+    /// In pixels of the picture, as far away as the edge is from the camera, > 0.
+    Pixels(f32),
+}
+
+impl EdgeLength {
+    /// What holds where nothing is said.
+    pub const DEFAULT: Self = Self::Pixels(2.0);
 }
 
 impl Object {
@@ -510,6 +539,7 @@ impl Object {
             shape: shape.into(),
             material: None,
             transform: Vec::new(),
+            displacement: None,
             flip_normals: false,
             emission: None,
             light_group: None,

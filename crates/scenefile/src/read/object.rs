@@ -3,8 +3,8 @@
 use super::amount::{self, Amount};
 use super::material;
 use crate::desc::{
-    Brilliant, Emission, EmissionAmount, HeightField, HeightSource, Instance, Normals, Object, Shape,
-    TEAPOT_PARTS, TeapotPart, TransformStep, TransformSteps, WaterSurface,
+    Brilliant, Displacement, EdgeLength, Emission, EmissionAmount, HeightField, HeightSource, Instance,
+    Normals, Object, Shape, TEAPOT_PARTS, TeapotPart, TransformStep, TransformSteps, WaterSurface,
 };
 use crate::diagnostic::{Diagnostic, Report};
 use crate::document::{Entry, Node, Value};
@@ -25,6 +25,7 @@ pub(super) fn object(report: &mut Report, what: String, node: &Node) -> Object {
     let shape = shape(report, &r).unwrap_or(STAND_IN);
     let material = material::reference(report, &r);
     let transform = transform(report, &r);
+    let displacement = displacement(report, &r);
     let flip_normals = r.bool(report, "flip_normals");
     let emission = emission(report, &r);
     let light_group = r.optional_text(report, "light_group").flatten().map(|group| group.value);
@@ -35,10 +36,31 @@ pub(super) fn object(report: &mut Report, what: String, node: &Node) -> Object {
         // A lamp whose emission is wrong shall not be told to have a material as well.
         material: material.or(wrong_emission.then(|| crate::desc::Material::diffuse(0.0).into())),
         transform,
+        displacement,
         flip_normals: flip_normals.unwrap_or(false),
         emission,
         light_group,
     }
+}
+
+/// What moves an object's surface; `None` after a mistake, too.
+fn displacement(report: &mut Report, r: &Reader<'_>) -> Option<Sourced<Displacement>> {
+    let r = r.inner(report, "displacement")??;
+    let (texture, scale) = (r.text(report, "texture"), r.number(report, "scale"));
+    let midlevel = r.number(report, "midlevel");
+    let (length, pixels) =
+        (r.optional_number(report, "edge_length"), r.optional_number(report, "edge_pixels"));
+    if let (Some(a), Some(b)) = (r.given("edge_length"), r.given("edge_pixels")) {
+        r.conflict(report, a, b);
+        return None;
+    }
+    let edge = match (length?, pixels?) {
+        (Some(length), _) => EdgeLength::Units(length),
+        (None, Some(pixels)) => EdgeLength::Pixels(pixels),
+        (None, None) => EdgeLength::DEFAULT,
+    };
+    let value = Displacement { texture: texture?, scale: scale?, midlevel: midlevel?, edge };
+    Some(Sourced { value, span: Some(r.span) })
 }
 
 /// Where an object is told to shine.

@@ -10,7 +10,7 @@ mod texture;
 
 pub use light::LIGHTS;
 pub use material::MATERIALS;
-pub use object::{GROUPS, INSTANCES, LOOK_AT, OBJECTS, ROTATE, TRANSFORM};
+pub use object::{DISPLACEMENT, GROUPS, INSTANCES, LOOK_AT, OBJECTS, ROTATE, TRANSFORM};
 pub use settings::{CAMERA, FILM, PHOTON_MAP, RENDER, SPPM, VCM};
 pub use texture::{PICTURES, TEXTURE_REF, TEXTURES};
 
@@ -290,6 +290,7 @@ pub const SECTIONS: &[&Section] = &[
     &LIGHTS,
     &GROUPS,
     &INSTANCES,
+    &DISPLACEMENT,
     &TRANSFORM,
     &ROTATE,
     &LOOK_AT,

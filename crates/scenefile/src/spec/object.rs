@@ -32,6 +32,13 @@ pub const OBJECTS: Section = Section {
         ),
         STEPS,
         key(
+            "displacement",
+            Kind::Section("displacement"),
+            "",
+            Absent("none"),
+            "A texture that moves the surface along its normals, after `transform`.",
+        ),
+        key(
             "flip_normals",
             Kind::Bool,
             "",
@@ -153,6 +160,41 @@ pub const TRANSFORM: Section = Section {
         key("matrix", Kind::Matrix, "", Absent(""), "An affine matrix, row by row; it multiplies columns."),
     ],
     example: "[[objects]]\nshape = \"teapot\"\nmaterial = \"white\"\ntransform = [\n  { scale = 0.5 },\n  { rotate = { axis = [0, 1, 0], degrees = 30 } },\n  { translate = [0, 1, 0] },\n]\n",
+};
+
+/// `displacement = { … }`.
+pub const DISPLACEMENT: Section = Section {
+    name: "displacement",
+    noun: "displacement",
+    form: Form::Inline,
+    doc: "Moves a surface along its normals by the heights of a texture. Any shape is cut into triangles that are fine enough; what is closed stays closed.",
+    switch: None,
+    keys: &[
+        key("texture", Kind::Texture, "", Required, "The heights: the mean of its channels."),
+        key(
+            "scale",
+            Number(ANY),
+            "scene units",
+            Required,
+            "How far the surface moves where the texture is 1 above `midlevel`; less than 0 turns hills into dales.",
+        ),
+        key("midlevel", Number(ANY), "", Preset::Number(0.5), "The height that stays where it is."),
+        key(
+            "edge_length",
+            Number(POSITIVE),
+            "scene units",
+            Absent("edge_pixels counts"),
+            "The longest edge of a triangle.",
+        ),
+        key(
+            "edge_pixels",
+            Number(POSITIVE),
+            "pixels",
+            Absent("2"),
+            "The longest edge of a triangle as the camera sees it, instead of edge_length.",
+        ),
+    ],
+    example: "[textures.hammered]\nkind = \"fbm\"\ntransform = [{ scale = 0.2 }]\n\n[[objects]]\nshape = \"sphere\"\nmaterial = \"gold\"\ndisplacement = { texture = \"hammered\", scale = 0.02, midlevel = 0 }\n",
 };
 
 /// `rotate = { … }`.

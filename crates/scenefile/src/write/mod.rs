@@ -7,9 +7,9 @@ mod value;
 use std::fmt::Write as _;
 
 use crate::desc::{
-    Camera, CameraKind, DirectLight, Emission, EmissionAmount, Exposure, FilterKind, FovAxis, Instance,
-    Light, LightKind, MaterialRef, Object, PhotonFilter, PointAmount, ProfileAmount, SceneDesc, Shape,
-    SkyMapping, SunSky, TransformStep, VcmTechniques, WhiteBalance,
+    Camera, CameraKind, DirectLight, Displacement, EdgeLength, Emission, EmissionAmount, Exposure,
+    FilterKind, FovAxis, Instance, Light, LightKind, MaterialRef, Object, PhotonFilter, PointAmount,
+    ProfileAmount, SceneDesc, Shape, SkyMapping, SunSky, TransformStep, VcmTechniques, WhiteBalance,
 };
 use crate::spec::{self, Section};
 use material::{material_fields, texture_fields};
@@ -285,6 +285,9 @@ fn object_fields(object: &Object) -> Fields {
     }
     material_ref(&mut f, object.material.as_ref());
     transform(&mut f, &object.transform);
+    if let Some(displacement) = &object.displacement {
+        f.raw("displacement", displacement_text(displacement));
+    }
     f.bool("flip_normals", object.flip_normals);
     if let Some(emission) = &object.emission {
         emission_fields(&mut f, emission);
@@ -293,6 +296,16 @@ fn object_fields(object: &Object) -> Fields {
         f.text("light_group", group);
     }
     f
+}
+
+fn displacement_text(displacement: &Displacement) -> String {
+    let Displacement { texture, scale, midlevel, edge } = displacement;
+    let edge = match *edge {
+        EdgeLength::Units(length) => format!(", edge_length = {}", number(length)),
+        EdgeLength::Pixels(pixels) => format!(", edge_pixels = {}", number(pixels)),
+    };
+    let (scale, midlevel) = (number(*scale), number(*midlevel));
+    format!("{{ texture = {}, scale = {scale}, midlevel = {midlevel}{edge} }}", quote(texture))
 }
 
 fn emission_fields(f: &mut Fields, emission: &Emission) {
