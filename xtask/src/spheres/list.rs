@@ -133,6 +133,13 @@ pub const TEXTURES: &[Ball] = &[
     Ball { shape: Shape::Painted, ..textured("vertex-color", "[textures.t]\nkind = \"vertex-color\"") },
     ball("bump-map", "kind = \"plastic\"\ncolor = [0.3, 0.5, 0.25]\nroughness = 0.25\nbump_map = \"t\"\nbump_height = 0.12")
         .with("[textures.t]\nkind = \"wrinkled\"\ntransform = [{ scale = 0.4 }]"),
+    Ball {
+        shape: Shape::Other(
+            "shape = \"sphere\"\ncenter = [0, 0.95, 0]\nradius = 0.95\ndisplacement = { texture = \"t\", scale = 0.12 }",
+        ),
+        ..ball("displacement", "kind = \"plastic\"\ncolor = [0.3, 0.5, 0.25]\nroughness = 0.25")
+            .with("[textures.t]\nkind = \"wrinkled\"\ntransform = [{ scale = 0.4 }]")
+    },
     ball("normal-map", "kind = \"conductor\"\nmetal = \"silver\"\nroughness = 0.3\nnormal_map = \"t\"")
         .with("[textures.t]\nkind = \"image\"\nfile = \"quilt.png\"\ncolor_space = \"linear\""),
     ball("opacity", "kind = \"diffuse\"\ncolor = [0.8, 0.65, 0.2]\nopacity = { texture = \"t\" }")

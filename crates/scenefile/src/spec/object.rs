@@ -194,7 +194,7 @@ pub const DISPLACEMENT: Section = Section {
             "The longest edge of a triangle as the camera sees it, instead of edge_length.",
         ),
     ],
-    example: "[textures.hammered]\nkind = \"fbm\"\ntransform = [{ scale = 0.2 }]\n\n[[objects]]\nshape = \"sphere\"\nmaterial = \"gold\"\ndisplacement = { texture = \"hammered\", scale = 0.02, midlevel = 0 }\n",
+    example: "[[objects]]\nshape = \"sphere\"\nmaterial = \"gold\"\ndisplacement = { texture = \"bumps\", scale = 0.02, midlevel = 0 }\n",
 };
 
 /// `rotate = { … }`.
