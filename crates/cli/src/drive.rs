@@ -79,6 +79,9 @@ pub fn drive(mut session: Session, how: Drive<'_>, interrupt: &Interrupt) -> Out
                 .line(&format!("  = help: nothing is lost: `nephroid merge {file} -o OUT` writes a picture"));
         }
     }
+    if let Some(blank) = session.blank(info).filter(|_| session.done() > 0) {
+        progress.warn(&format!("{blank}\n  = help: {}", blank.help()));
+    }
     say_end(&progress, &session, goal, result.as_ref().ok().copied(), start.elapsed());
     if result == Ok(nephroid::Outcome::Stopped) && code == OK {
         code = INTERRUPTED;

@@ -4,6 +4,7 @@ mod attributes;
 pub mod camera;
 mod chance;
 mod compile;
+mod idle;
 mod interaction;
 pub mod light;
 mod material;

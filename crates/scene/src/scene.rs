@@ -251,6 +251,11 @@ impl Scene {
         }
     }
 
+    /// The lights, in order.
+    pub fn light_ids(&self) -> impl Iterator<Item = LightId> + use<> {
+        (0..self.lights.len() as u32).map(LightId)
+    }
+
     /// What a light is called in messages.
     pub fn light_name(&self, id: LightId) -> &str {
         self.light_names.get(id.0 as usize).map_or("", String::as_str)

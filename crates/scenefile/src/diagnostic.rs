@@ -135,6 +135,10 @@ pub const CODES: &[(&str, &str)] = &[
     ("singular-transform", "A placement flattens space, or is not finite."),
     ("unknown-metal", "No metal has this name."),
     ("unknown-ior", "No glass or liquid has this name."),
+    ("open-solid", "Glass or a liquid whose surface has holes (a warning)."),
+    ("lamp-turned-away", "Everything lies behind a lamp, so that it lights nothing (a warning)."),
+    ("picture-dark", "A picture that is black or nearly so, and why (a warning at the end)."),
+    ("picture-white", "A picture that is white nearly everywhere, and why (a warning at the end)."),
     ("camera-inside", "The camera is inside of something, perhaps unmeant (a warning)."),
     (
         "unsupported",

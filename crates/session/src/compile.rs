@@ -5,7 +5,7 @@ use par::Workers;
 use scene::{Scene, Survey};
 use scenefile::{Diagnostic, SceneDesc};
 
-use crate::surroundings::camera_warning;
+use crate::surroundings::{camera_warning, lamp_warnings};
 
 /// A scene that can be rendered.
 #[derive(Clone, Debug)]
@@ -50,6 +50,7 @@ pub fn compile(desc: &SceneDesc, threads: usize) -> Result<Compiled, CompileErro
     let workers = Workers::new(threads).map_err(CompileError::Threads)?;
     let (scene, mut warnings) = workers.run(|| scene::compile(desc)).map_err(CompileError::Scene)?;
     warnings.extend(camera_warning(&scene, desc));
+    warnings.extend(lamp_warnings(&scene));
     Ok(Compiled { scene: Arc::new(scene), warnings })
 }
 

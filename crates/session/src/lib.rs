@@ -8,6 +8,7 @@
 //! ([`Session::with_checkpoint`]); [`resume`] goes on with such a file, [`merge`] adds up several that were made of
 //! different passes, anywhere. However a render is cut, its film is the same to the bit.
 
+mod blank;
 mod checkpoint;
 mod compile;
 mod denoised;
@@ -28,6 +29,7 @@ mod session;
 mod settings;
 mod surroundings;
 
+pub use blank::Blank;
 pub use checkpoint::{
     Checkpoint, CheckpointError, CheckpointErrorKind, CheckpointFile, CheckpointInfo, MergeError, ReadScene,
     SceneSource, merge, write_checkpoint,

@@ -9,6 +9,7 @@ use integrators::{Integrator, Maps};
 use par::Workers;
 use scene::Scene;
 
+use crate::blank::{Blank, blank};
 use crate::checkpoint::{CheckpointFile, CheckpointInfo, Saver};
 use crate::grain::Goal;
 use crate::job::{check_memory, has_end, layer_bytes};
@@ -223,6 +224,11 @@ impl Session {
         self.saved =
             self.saver.as_ref().is_some_and(|s| s.has_saved(self.film.passes())).then(|| self.film.passes());
         outcome.map_err(Into::into)
+    }
+
+    /// Why the picture is black or white all over, as `info` shows it; `None` where it is not.
+    pub fn blank(&self, info: &PictureInfo) -> Option<Blank> {
+        blank(&self.film, &self.scene, info)
     }
 
     /// Worker threads.

@@ -1,4 +1,4 @@
-use scene::Scene;
+use scene::{LightId, Scene};
 use scenefile::{Diagnostic, SceneDesc};
 
 /// Rays along each side of the picture that look about.
@@ -40,10 +40,23 @@ fn sees_one_back(scene: &Scene) -> bool {
     true
 }
 
+/// Lamps that shine away from everything.
+pub(crate) fn lamp_warnings(scene: &Scene) -> Vec<Diagnostic> {
+    let turned = |id: &LightId| scene.is_turned_away(*id);
+    let warning = |id: LightId| {
+        let message =
+            format!("the lamp `{}` shines away from the scene and the camera", scene.light_name(id));
+        let help = "light leaves on the side of the normal: turn it with `flip_normals = true`, or let both sides \
+                    shine with `two_sided_emission = true`";
+        Diagnostic::warning("lamp-turned-away", message).help(help)
+    };
+    scene.light_ids().filter(turned).map(warning).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use scenefile::SceneDesc;
-    use scenefile::desc::{Camera, Light, LightKind, Material, Object, Shape};
+    use scenefile::desc::{Camera, Emission, Light, LightKind, Material, Object, Shape};
 
     fn warnings(material: Material, radius: f32, more: impl FnOnce(&mut SceneDesc)) -> Vec<String> {
         let camera = Camera { position: [0.0, 0.0, 4.0], ..Camera::default() };
@@ -64,6 +77,45 @@ mod tests {
         assert!(warnings(Material::diffuse(0.5), 9.0, |_| {})[0].contains("inside a solid"));
         assert_eq!(warnings(glass(), 1.0, |_| {}), Vec::<String>::new());
         assert!(warnings(glass(), 9.0, |_| {})[0].contains("dielectric of index 1.5"));
+    }
+
+    #[test]
+    fn lamps_that_are_turned_away_are_told() {
+        let lamp = |normal: [f32; 3], center: [f32; 3]| {
+            warnings(Material::diffuse(0.5), 1.0, |desc| {
+                let disk = Object::new(Shape::Disk { center, normal, radius: 0.3 }, Material::diffuse(0.0));
+                desc.objects
+                    .push(Object { emission: Some(Emission::radiance([5.0; 3]).into()), ..disk }.into());
+            })
+        };
+        assert!(lamp([0.0, 1.0, 0.0], [0.0, 3.0, 0.0])[0].contains("shines away"));
+        assert_eq!(lamp([0.0, -1.0, 0.0], [0.0, 3.0, 0.0]), Vec::<String>::new());
+        // The camera at z = 4 sees this one shine.
+        assert_eq!(lamp([0.0, 0.0, 1.0], [0.0, 0.0, 2.0]), Vec::<String>::new());
+        assert!(lamp([0.0, 0.0, 1.0], [0.0, 0.0, 5.0])[0].contains("shines away"));
+    }
+
+    #[test]
+    fn glass_with_holes_is_told() {
+        let of = |shape: Shape, material: Material| {
+            warnings(Material::diffuse(0.5), 1.0, |desc| {
+                desc.objects.push(Object::new(shape, material).into())
+            })
+        };
+        let tube = |closed| Shape::Cylinder {
+            base: [5.0, 0.0, 0.0],
+            axis: [0.0, 1.0, 0.0],
+            radius: 1.0,
+            height: 1.0,
+            segments: 16,
+            closed,
+            inward: false,
+        };
+        assert!(of(tube(false), glass())[0].contains("open surface"));
+        assert_eq!(of(tube(true), glass()), Vec::<String>::new());
+        assert_eq!(of(tube(false), Material::diffuse(0.5)), Vec::<String>::new());
+        let pane = Shape::Disk { center: [5.0, 0.0, 0.0], normal: [0.0, 1.0, 0.0], radius: 1.0 };
+        assert!(of(pane, glass())[0].contains("open surface"));
     }
 
     #[test]

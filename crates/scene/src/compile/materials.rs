@@ -152,6 +152,11 @@ impl<'d> Library<'d> {
         weight * opacity
     }
 
+    /// Whether a material bounds a solid that light enters, and not a level between two fillings.
+    pub fn is_filling(&self, id: MaterialId) -> bool {
+        self.materials[id.0 as usize].medium(id).is_some_and(|medium| medium.outside == 0.0)
+    }
+
     /// What a mesh of a material must have.
     pub fn needs(&self, id: MaterialId, textured_lamp: bool) -> Needs {
         let uvs = textured_lamp || !self.needs_no_uv(id);

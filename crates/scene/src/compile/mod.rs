@@ -15,7 +15,7 @@ use accel::{Bvh, Geometry};
 use math::{Bounds3, Transform, Vec2, Vec3};
 use scenefile::desc::{
     Camera as CameraDesc, CameraKind, Emission, FovAxis, LightKind, MaterialRef, Object as ObjectDesc,
-    SceneDesc, SunSky,
+    SceneDesc, Shape as ShapeDesc, SunSky,
 };
 use scenefile::{Diagnostic, Sourced, Span};
 
@@ -103,6 +103,21 @@ struct Compiler<'d> {
     bounds: Bounds3,
 }
 
+/// What is said where glass or a liquid fills a surface that has holes. Sheets that are made to be open are left out: water and
+/// height fields, whose other side is the ground.
+fn open_solid(object: &Sourced<ObjectDesc>, solid: &Solid) -> Option<Diagnostic> {
+    let is_open = match (solid, &object.shape.value) {
+        (_, ShapeDesc::WaterSurface(_) | ShapeDesc::HeightField(_)) => false,
+        (Solid::Mesh(mesh), _) => !mesh.is_closed(),
+        (Solid::Disk { .. }, _) => true,
+        (Solid::Sphere { .. }, _) => false,
+    };
+    let message = "this glass or liquid has an open surface: light that enters does not leave it again";
+    let help =
+        "close it, or take `thin-dielectric` for a pane; a level of water within a basin is right as it is";
+    is_open.then(|| Diagnostic::warning("open-solid", message).at(object.span).help(help))
+}
+
 impl<'d> Compiler<'d> {
     fn new(desc: &'d SceneDesc) -> Self {
         Self {
@@ -182,8 +197,15 @@ impl<'d> Compiler<'d> {
                 Some(t) => Ok(solid.transformed(t)),
             }
         });
+        let alone = |id: MaterialId| materials.iter().filter(|&&other| other == id).count() == 1;
         let mut placed = Vec::new();
-        for ((solid, object), material) in solids.into_iter().zip(objects.iter().copied()).zip(materials) {
+        for ((solid, object), &material) in solids.into_iter().zip(objects.iter().copied()).zip(&materials) {
+            if let Ok(solid) = &solid
+                && self.library.is_filling(material)
+                && alone(material)
+            {
+                self.diagnostics.extend(open_solid(object, solid));
+            }
             match solid {
                 Ok(solid) => placed.push(Placed {
                     solid,
