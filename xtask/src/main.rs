@@ -3,10 +3,13 @@
 
 mod bench;
 mod book;
+mod cookbook;
 mod diagrams;
 mod dist;
 mod gallery;
 mod long;
+mod passes;
+mod perfume;
 mod reference;
 mod spheres;
 mod verify;
@@ -23,10 +26,13 @@ type Chore = (&'static str, &'static str, &'static str, fn(&[String]) -> Outcome
 const CHORES: &[Chore] = &[
     ("bench", "[--quick] [--only PREFIX] [--json FILE]", "measures against peers", bench::run),
     ("book", "[--check]", "checks the links of all pages and makes the site: target/book/", book::run),
+    ("cookbook", "[NAME... | --pages | --jpeg FROM TO]", "renders docs/cookbook/", cookbook::run),
     ("diagrams", "[--check]", "draws docs/book/diagrams/", diagrams::run),
     ("dist", "[--target TRIPLE]", "packs the program for release: target/dist/", dist::run),
     ("gallery", "[NAME...]", "renders docs/gallery/", gallery::run),
     ("long", "[NAME...]", "runs the tests that take minutes", long::run),
+    ("passes", "", "renders docs/cookbook/passes.gif", passes::run),
+    ("perfume", "[--check]", "writes scenes/cookbook/perfume.glb", perfume::run),
     ("reference", "[--check]", "writes docs/reference.md", reference::run),
     ("spheres", "[NAME...]", "renders docs/book/spheres/: a ball of every material", spheres::run),
     (

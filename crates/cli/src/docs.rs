@@ -117,6 +117,9 @@ const ELSEWHERE: [&str; 7] = [
 /// Files that a page names need not be there.
 const OF_FILES: [&str; 2] = ["missing-file", "include"];
 
+/// What a page may do on purpose: look out from under water.
+const MEANT: &str = "camera-inside";
+
 /// Errors and warnings of a scene, or of a part of one. A whole scene, which has a camera and objects, is compiled as well.
 fn mistakes(text: &str) -> Vec<String> {
     let has = |head: &str| text.lines().any(|line| line.trim() == head);
@@ -125,7 +128,8 @@ fn mistakes(text: &str) -> Vec<String> {
     let needs_files = loaded.diagnostics.iter().any(|d| OF_FILES.contains(&d.code));
     let told = |diagnostics: &[nephroid::Diagnostic]| -> Vec<String> {
         let counts = |d: &&nephroid::Diagnostic| {
-            let may_lack = OF_FILES.contains(&d.code) || (!is_whole && ELSEWHERE.contains(&d.code));
+            let may_lack =
+                OF_FILES.contains(&d.code) || d.code == MEANT || (!is_whole && ELSEWHERE.contains(&d.code));
             d.severity != Severity::Note && !may_lack
         };
         diagnostics.iter().filter(counts).map(|d| format!("{}: {}", d.code, d.message)).collect()

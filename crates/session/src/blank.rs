@@ -40,7 +40,7 @@ const NEARLY_ALL: f32 = 0.95;
 
 /// Why the picture of `film` is black or white all over; `None` where it is not.
 pub(crate) fn blank(film: &Film, scene: &Scene, info: &PictureInfo) -> Option<Blank> {
-    let luminance: Vec<f32> = film.beauty().into_iter().map(|pixel| color::luminance(pixel)).collect();
+    let luminance: Vec<f32> = film.beauty().into_iter().map(color::luminance).collect();
     let brightest = luminance.iter().copied().fold(0.0, f32::max);
     if brightest == 0.0 {
         return unlit(film, scene);

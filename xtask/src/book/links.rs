@@ -40,13 +40,6 @@ pub fn check(root: &Path) -> Outcome {
     if wrong.is_empty() { Ok(()) } else { Err(wrong.join("\n")) }
 }
 
-/// Pages and folders that are still being written: they may be missing, and need not be listed.
-const PROMISED: [&str; 2] = ["docs/book/black-picture.md", "docs/cookbook"];
-
-fn is_promised(page: &Path) -> bool {
-    PROMISED.iter().any(|promised| page.starts_with(promised))
-}
-
 struct Repository<'a> {
     root: &'a Path,
     /// Text by path from the root.
@@ -76,7 +69,7 @@ impl Repository<'_> {
         } else {
             resolved(page, path).ok_or("leaves the repository")?
         };
-        if !self.pages.contains_key(&file) && !self.root.join(&file).exists() && !is_promised(&file) {
+        if !self.pages.contains_key(&file) && !self.root.join(&file).exists() {
             return Err("is not there".into());
         }
         if link.is_image && page.starts_with("docs") && !file.starts_with("docs") {
@@ -95,7 +88,7 @@ impl Repository<'_> {
         let listed: BTreeSet<PathBuf> =
             markdown::links(text).iter().filter_map(|link| resolved(summary, &link.target)).collect();
         let pages = self.pages.keys().filter(|page| page.starts_with("docs") && *page != summary);
-        let missing = pages.filter(|page| !listed.contains(*page) && !is_promised(page));
+        let missing = pages.filter(|page| !listed.contains(*page));
         missing.map(|page| format!("{}: {SUMMARY} does not list it", page.display())).collect()
     }
 }
