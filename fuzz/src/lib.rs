@@ -73,6 +73,37 @@ pub fn toml(data: &[u8]) {
     });
 }
 
+/// A small scene file, compiled: what shapes, textures and displacement make of values that pass the reader.
+pub fn compile(data: &[u8]) {
+    let Ok(text) = std::str::from_utf8(data) else { return };
+    // Counts of four digits make meshes that take longer than an input may.
+    let long = data.windows(4).any(|w| w.iter().all(u8::is_ascii_digit));
+    if leads_out(data) || long {
+        return;
+    }
+    FOLDER.with(|folder| {
+        let Some(desc) = scenefile::parse(text, &folder.path().join("a.toml"), &[]).desc else { return };
+        let groups = desc.groups.values().flat_map(|group| &group.objects);
+        if desc.objects.iter().chain(groups).all(|object| is_cut_coarsely(object)) {
+            let workers = par::Workers::new(1).expect("a thread");
+            let _ = workers.run(|| scene::compile(&desc));
+        }
+    });
+}
+
+/// Whether displacement makes few triangles of an object.
+fn is_cut_coarsely(object: &scenefile::desc::Object) -> bool {
+    use scenefile::desc::{EdgeLength, Shape};
+    let Some(displacement) = &object.displacement else { return true };
+    let small = match &object.shape.value {
+        Shape::Sphere { radius, .. } => *radius < 2.0,
+        Shape::Box { min, max } => min.iter().chain(max).all(|x| x.abs() < 2.0),
+        _ => false,
+    };
+    // A sphere begins with 65 536 triangles.
+    small && object.transform.is_empty() && matches!(displacement.edge, EdgeLength::Units(edge) if edge > 0.02)
+}
+
 /// A pbrt scene.
 pub fn pbrt(data: &[u8]) {
     scene("scene.pbrt", data);

@@ -21,6 +21,7 @@ fn of(target: &str) -> Vec<Vec<u8>> {
     let texts = |texts: &[&str]| texts.iter().map(|t| t.as_bytes().to_vec()).collect();
     match target {
         "toml" => toml(),
+        "compile" => compile(),
         "pbrt" => texts(&PBRT),
         "mitsuba" => texts(&[MITSUBA]),
         "serialized" => vec![serialized()],
@@ -51,6 +52,8 @@ pub fn neighbours(folder: &Path) {
     write("a.spd", b"400 0.5\n700 1\n");
     write("b.pbrt", b"Shape \"disk\"\nInclude \"b.pbrt\"\n");
     write("a.bin", &[0; 64]);
+    write("b.toml", b"include = [\"c.toml\"]\n[materials.red]\nkind = \"diffuse\"\ncolor = [1, 0, 0]\n");
+    write("c.toml", b"[textures.bumps]\nkind = \"fbm\"\n[[lights]]\nkind = \"environment\"\nradiance = 1\n");
 }
 
 /// A triangle in text and one in binary.
@@ -86,7 +89,30 @@ fn toml() -> Vec<Vec<u8>> {
             );
         }
     }
+    seeds.extend(compile());
     seeds
+}
+
+/// Scenes of generated shapes, of files that are there, and of several files.
+fn compile() -> Vec<Vec<u8>> {
+    let shapes = [
+        "shape = \"height-field\"\nfile = \"a.png\"\nsize = [2, 2]\nheight = 0.3\ndepth = 0.1",
+        "shape = \"height-field\"\nheights = [[0, 0.2], [0.1, 0]]\nsize = [1, 2]",
+        "shape = \"water-surface\"\nsize = [2, 2]\ndepth = 0.5\nresolution = 64\nwind_speed = 3\nfetch = 50\nwaves = 64",
+        "shape = \"round-brilliant\"\ndiameter = 2\ncrown_angle = 34\npavilion_angle = 41\nculet = 0.01",
+        "shape = \"rounded-box\"\nmin = [0, 0, 0]\nmax = [1, 1, 1]\nradius = 0.1\nsteps = 3",
+        "shape = \"lathe\"\nprofile = [[0, 0], [1, 0], [0, 1]]\nsegments = 12\nsteps = 3",
+        "shape = \"mesh\"\nfile = \"a.ply\"\nnormals = \"smooth\"",
+        "shape = \"sphere\"\ndisplacement = { texture = \"bumps\", scale = 0.1, midlevel = 0, edge_length = 0.3 }",
+        "shape = \"box\"\nmin = [0, 0, 0]\nmax = [1, 1, 1]\ndisplacement = { texture = \"bumps\", scale = 0.1, edge_pixels = 9 }",
+    ];
+    let scene = |keys: &str| {
+        format!(
+            "include = [\"b.toml\"]\n[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\n[[objects]]\nmaterial = \"red\"\n{keys}\n"
+        )
+        .into_bytes()
+    };
+    shapes.map(scene).to_vec()
 }
 
 const PBRT: [&str; 6] = [
