@@ -12,20 +12,27 @@ use crate::caustics::trace_caustic_job;
 use crate::maps::StoredMap;
 use crate::pixels::{Tracer, start};
 use crate::radius::{PassRadius, median};
-use crate::sink::{Origin, Sink, Source, Technique};
+use crate::sink::{Origin, Sink, Source, Sum, Technique};
 use crate::{Maps, Settings};
 
 /// Photon paths of the pilot.
 const PHOTONS: u64 = 16_384;
-/// Eye paths of the pilot: so many places of a lattice over the picture.
-const EYES: u64 = 4096;
-/// Paths of one task; fixed, so that sums have one shape on any number of threads.
-const CHUNK: usize = 256;
-/// Least share of the pixels that is traced as photons, where there are caustics at all: what the pilot did not see is
-/// not left to chance. Tracing them costs 1 to 2 % of a pass, looking them up at every D surface 15 to 25 %.
-const LEAST_SHARE: f64 = 1.0 / 16.0;
-/// Photons a pixel for each unit of that share; by trials (docs/book/auto.md).
-const FULL_AT: f64 = 3.0;
+/// Pixels of the pilot: so many places of a lattice over the picture, with two eye paths each.
+const PIXELS: usize = 2048;
+/// Pixels of one task; fixed, so that sums have one shape on any number of threads.
+const CHUNK: usize = 128;
+/// Blocks of the picture along each side; noise is weighed against the brightness of its block.
+const BLOCKS: usize = 8;
+/// Part of the picture's mean brightness below which a block counts as no darker.
+const DARKEST: f64 = 0.05;
+/// Photon paths a pixel that are tried: these powers of √2. With fewer, what the pilot did not see would be left to chance: tracing
+/// them costs 1 to 2 % of a pass, looking them up at every D surface 15 to 25 %. More have paid in no trial.
+const HALF_POWERS: std::ops::RangeInclusive<i32> = -8..=0;
+/// Photons a pixel for which the pilot weights its paths: in the middle of that.
+const TYPICAL: f64 = 0.25;
+/// Noise of photons over noise of as large a variance that eye paths have in a pilot: it shrinks more slowly with passes, for radii
+/// shrink and the numbers of eye paths fill their squares evenly. By trials (docs/book/auto.md).
+const LASTING: f64 = 4.0;
 /// Most of them: with more, large pictures would only take longer for each pass and more memory.
 const MOST: f64 = (1 << 20) as f64;
 
@@ -38,8 +45,7 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
-    /// As many paths as pixels where a third of the picture's light is merged, fewer where less is, and none where no
-    /// photon lands.
+    /// As many paths as make noise times time least, up to one a pixel, and none where no photon lands.
     pub fn new(settings: &Settings, scene: &Scene) -> Self {
         let none = Self { paths: 0, typical_radius: 0.0 };
         if scene.targets().is_empty() || settings.max_depth < 2 {
@@ -63,82 +69,169 @@ impl Plan {
             rivals: order.iter().map(|&i| traced.rivals[i as usize]).collect(),
             ..Maps::default()
         };
-        let seen = look(settings, scene, &maps);
-        let [width, height] = scene.resolution().map(f64::from);
-        let share = if seen.all > 0.0 { seen.merged / seen.all } else { 0.0 };
-        Self { paths: paths(width * height, share), typical_radius: median(seen.radii).unwrap_or(0.0) }
+        let pixels = scene.resolution().map(f64::from).iter().product();
+        let seen = look(settings, scene, &maps, pixels);
+        Self { paths: paths(pixels, &seen.blocks), typical_radius: median(seen.radii).unwrap_or(0.0) }
     }
 }
 
-/// Photon paths for a picture of so many pixels, of whose light that share is merged.
-fn paths(pixels: f64, share: f64) -> u64 {
-    (pixels * (FULL_AT * share).clamp(LEAST_SHARE, 1.0)).ceil().min(MOST) as u64
+/// Photon paths for a picture of so many pixels.
+fn paths(pixels: f64, blocks: &[Block]) -> u64 {
+    let brightness = |block: &Block| block.luminance / f64::from(block.pixels.max(1));
+    let seen = blocks.iter().filter(|block| block.pixels > 0);
+    let mean = seen.clone().map(brightness).sum::<f64>() / seen.clone().count().max(1) as f64;
+    // Means over blocks of the relative error, times the root of what a pass costs: a photon costs as much as an eye path.
+    let cost = |per_pixel: f64| {
+        let error = |block: &Block| {
+            let variance = (block.found + LASTING * block.merged / per_pixel) / f64::from(block.pixels);
+            variance.sqrt() / brightness(block).hypot(DARKEST * mean)
+        };
+        seen.clone().map(error).sum::<f64>() * (1.0 + per_pixel).sqrt()
+    };
+    let mut best = (2f64.powf(0.5 * f64::from(*HALF_POWERS.start())), f64::INFINITY);
+    for half_power in HALF_POWERS {
+        let per_pixel = 2f64.powf(0.5 * f64::from(half_power));
+        let cost = cost(per_pixel);
+        if cost < best.1 {
+            best = (per_pixel, cost);
+        }
+    }
+    (pixels * best.0).ceil().min(MOST) as u64
 }
 
 /// What the pilot's eye paths found.
-#[derive(Default)]
 struct Seen {
-    /// Luminance, summed.
-    all: f64,
-    /// By merging.
-    merged: f64,
+    blocks: Vec<Block>,
     /// Radii at the first surfaces.
     radii: Vec<f32>,
 }
 
-/// Eye paths through a lattice of the picture.
-fn look(settings: &Settings, scene: &Scene, maps: &Maps) -> Seen {
+/// What they found in a block of the picture, summed over its pixels.
+#[derive(Clone, Copy, Debug, Default)]
+struct Block {
+    pixels: u32,
+    /// Of both paths' mean.
+    luminance: f64,
+    /// Variance of a path, without what was merged.
+    found: f64,
+    /// Variance of what a path merges, with one photon path a pixel.
+    merged: f64,
+}
+
+impl Block {
+    fn plus(&self, other: &Self) -> Self {
+        Self {
+            pixels: self.pixels + other.pixels,
+            luminance: self.luminance + other.luminance,
+            found: self.found + other.found,
+            merged: self.merged + other.merged,
+        }
+    }
+}
+
+/// Pairs of eye paths through a lattice of the picture.
+fn look(settings: &Settings, scene: &Scene, maps: &Maps, pixels: f64) -> Seen {
     let radius = RADIUS.of_pass(0, scene.bounds().size().length());
-    let eye = Eye { photons: Merging::new(maps, radius, PHOTONS), max_depth: settings.max_depth };
-    let streams = Streams::new(settings.seed, 0, Domain::Pilot);
+    let photons = Merging::new(maps, radius, (TYPICAL * pixels).ceil() as u64);
+    let eye = Eye { photons, max_depth: settings.max_depth };
+    // Paths of one pixel are independent.
+    let others = Settings { seed: !settings.seed, ..settings.clone() };
     let [width, height] = scene.resolution().map(|n| n as usize);
-    let batches = par::map_chunks(EYES as usize, CHUNK, |range| {
-        let mut seen = Seen::default();
+    let batches = par::map_chunks(PIXELS, CHUNK, |range| {
+        let mut seen = Seen { blocks: vec![Block::default(); BLOCKS * BLOCKS], radii: Vec::new() };
         for i in range {
             // Pixels fill the picture evenly, whatever its shape.
             let [u, v] = Strata::new(settings.seed, i as u64).point(0);
             let pixel = [(u * width as f32) as usize, (v * height as f32) as usize];
-            let mut tally = Tally { radius, all: 0.0, merged: 0.0, first: None };
-            eye.trace(start(scene, settings, &streams, i as u64, pixel), &mut tally);
-            seen.all += tally.all;
-            seen.merged += tally.merged;
-            seen.radii.extend(tally.first);
+            let [a, b] = [settings, &others].map(|settings| {
+                let streams = Streams::new(settings.seed, 0, Domain::Pilot);
+                let mut tally = Tally { radius, found: 0.0, merged: 0.0, squares: 0.0, first: None };
+                eye.trace(start(scene, settings, &streams, i as u64, pixel), &mut tally);
+                tally
+            });
+            let block = [u, v].map(|x| (x * BLOCKS as f32) as usize);
+            let block = &mut seen.blocks[block[1] * BLOCKS + block[0]];
+            *block = block.plus(&Block {
+                pixels: 1,
+                luminance: 0.5 * (a.found + a.merged + b.found + b.merged),
+                found: 0.5 * (a.found - b.found).powi(2),
+                // Photons are independent: the variance of a sum is that of its parts, and in the mean the sum of their squares.
+                merged: 0.5 * (a.squares + b.squares) * PHOTONS as f64 / pixels,
+            });
+            seen.radii.extend(a.first);
         }
         seen
     });
-    batches.into_iter().fold(Seen::default(), |mut sum, seen| {
-        sum.all += seen.all;
-        sum.merged += seen.merged;
+    let none = Seen { blocks: vec![Block::default(); BLOCKS * BLOCKS], radii: Vec::new() };
+    batches.into_iter().fold(none, |mut sum, seen| {
+        sum.blocks.iter_mut().zip(&seen.blocks).for_each(|(sum, block)| *sum = sum.plus(block));
         sum.radii.extend(seen.radii);
         sum
     })
 }
 
-/// Takes the light of one eye path.
+/// Takes the light of one eye path, as luminance.
 struct Tally {
     radius: PassRadius,
-    all: f64,
+    /// By all techniques but merging.
+    found: f64,
     merged: f64,
+    /// Of what each photon gave.
+    squares: f64,
     /// Radius at the first D surface.
     first: Option<f32>,
 }
 
-impl Sink for Tally {
-    type Sum = Lanes;
+/// Each part of a sum.
+#[derive(Default)]
+struct Each(Vec<Lanes>);
 
-    fn add(&mut self, origin: Origin, radiance: Lanes) {
-        let luminance = f64::from(color::luminance(radiance.to_rgb()));
-        if !luminance.is_finite() {
-            return;
-        }
-        self.all += luminance;
-        if origin.technique == Technique::Merge {
-            self.merged += luminance;
-        }
+impl Sum for Each {
+    fn add(&mut self, _source: Source, radiance: Lanes) {
+        self.0.push(radiance);
     }
 
-    fn add_sum(&mut self, layer: LightLayer, technique: Technique, sum: Lanes) {
-        self.add(Origin { layer, technique, source: Source::Unknown }, sum);
+    fn add_split(&mut self, total: Lanes, _each: impl FnOnce(&mut dyn FnMut(Source, Lanes))) {
+        self.0.push(total);
+    }
+
+    fn plus(mut self, other: Self) -> Self {
+        self.0.extend(other.0);
+        self
+    }
+
+    fn map(mut self, f: impl Fn(Lanes) -> Lanes) -> Self {
+        self.0.iter_mut().for_each(|part| *part = f(*part));
+        self
+    }
+}
+
+/// 0 where it is no number: films count those, plans must not.
+fn luminance(radiance: Lanes) -> f64 {
+    let luminance = f64::from(color::luminance(radiance.to_rgb()));
+    if luminance.is_finite() { luminance } else { 0.0 }
+}
+
+impl Sink for Tally {
+    type Sum = Each;
+
+    fn add(&mut self, _origin: Origin, radiance: Lanes) {
+        self.found += luminance(radiance);
+    }
+
+    fn add_sum(&mut self, _layer: LightLayer, technique: Technique, sum: Each) {
+        for part in sum.0 {
+            let luminance = luminance(part);
+            match technique {
+                Technique::Merge => {
+                    self.merged += luminance;
+                    self.squares += luminance * luminance;
+                }
+                Technique::Emission | Technique::Direct | Technique::Connect | Technique::Project => {
+                    self.found += luminance;
+                }
+            }
+        }
     }
 
     fn features(&mut self, _walk: &Walk<'_>, _vertex: &Vertex) {}
@@ -156,13 +249,30 @@ impl Sink for Tally {
 mod tests {
     use super::*;
 
+    /// A picture of one brightness in all blocks, with as much variance.
+    fn grey(found: f64, merged: f64) -> Vec<Block> {
+        vec![Block { pixels: 32, luminance: 32.0, found: 32.0 * found, merged: 32.0 * merged }; 64]
+    }
+
     #[test]
-    fn photons_follow_the_share_of_merged_light() {
+    fn photons_follow_the_noise_that_they_make() {
         let picture = 256.0 * 256.0;
-        assert_eq!(paths(picture, 0.0), 4096, "a few where the pilot saw none");
-        assert_eq!(paths(picture, 1.0 / 12.0), 16_384);
-        assert_eq!(paths(picture, 0.4), 65_536, "no more than pixels");
-        assert_eq!(paths(7680.0 * 4320.0, 1.0), 1 << 20, "a large picture");
-        assert_eq!(paths(1.0, 0.0), 1);
+        assert_eq!(paths(picture, &grey(1.0, 0.0)), 4096, "a few where the pilot saw none");
+        // √(LASTING·merged/found) of the pixels.
+        assert_eq!(paths(picture, &grey(1.0, 0.125 * 0.125 / LASTING)), 8192);
+        assert_eq!(paths(picture, &grey(0.01, 0.01 * 0.25 / LASTING)), 32_768, "of dark noise the same");
+        assert_eq!(paths(picture, &grey(0.0, 1.0)), 65_536, "no more than pixels");
+        assert_eq!(paths(7680.0 * 4320.0, &grey(0.0, 1.0)), 1 << 20, "a large picture");
+        assert_eq!(paths(1.0, &grey(0.0, 0.0)), 1, "black");
+        assert_eq!(paths(1.0, &[]), 1);
+    }
+
+    /// A lamp in view, or one bright dot, does not hide what photons do to the rest.
+    #[test]
+    fn bright_blocks_count_as_much_as_others() {
+        let mut blocks = grey(0.01, 0.01);
+        let even = paths(1e4, &blocks);
+        blocks[5] = Block { pixels: 32, luminance: 3.2e5, found: 32e8, merged: 0.0 };
+        assert!(paths(1e4, &blocks) > even / 2);
     }
 }

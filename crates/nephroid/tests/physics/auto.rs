@@ -2,7 +2,8 @@
 //! what does not pay.
 
 use nephroid::desc::{
-    Emission, IntegratorKind, Light, LightKind, Material, Object, PointAmount, Render, Shape, Triple,
+    Emission, IntegratorKind, Light, LightKind, Material, Object, PointAmount, Principled, Render, Shape,
+    Triple,
 };
 use nephroid::{Layer, SceneDesc};
 use testkit::Moments;
@@ -33,9 +34,14 @@ fn assert_like_path(what: &str, desc: &SceneDesc, [path, auto]: [u32; 2]) {
 
 /// A floor, a ball and a wall, seen from the side.
 fn floor_with(ball: Material) -> SceneDesc {
+    on_floor(grey(0.5), ball)
+}
+
+/// The same on a floor of some material.
+fn on_floor(floor: Material, ball: Material) -> SceneDesc {
     let objects = vec![
         Object::new(sphere([0.0, 0.6, 0.0], 0.5), ball),
-        Object::new(ground(0.0, 2.5), grey(0.5)),
+        Object::new(ground(0.0, 2.5), floor),
         Object::new(disk([0.0, 1.0, -2.0], [0.0, 0.0, 1.0], 2.0), grey(0.3)),
     ];
     scene_of(look([1.5, 1.5, 3.0], [0.0, 0.3, 0.0], 40.0), 24, objects)
@@ -105,6 +111,42 @@ fn points_and_suns_through_glass() {
             Moments::of(runs(&desc, integrator, 16, passes, |film| mean(film, Layer::Caustic)))
         };
         assert_same_within("caustic", &caustic(AUTO, 120), &caustic(IntegratorKind::Sppm, 30), 0.01, 1.1);
+    }
+}
+
+/// Floors whose coat reflects the caustic in a lobe: narrow, wide, and in two lobes of the principled model.
+fn glossy_floors() -> [(&'static str, Material); 3] {
+    [
+        ("satin coat", Material::plastic(0.3, 0.3)),
+        ("dull coat", Material::plastic(0.3, 0.6)),
+        ("principled", Principled { roughness: 0.3.into(), ..Principled::default() }.into()),
+    ]
+}
+
+/// A lamp that camera paths meet through the ball by the lobe and by the base, and photons too.
+#[test]
+fn glossy_floors_reflect_the_caustic_of_a_lamp_once() {
+    for (name, floor) in glossy_floors() {
+        let mut desc = on_floor(floor, glass());
+        // Behind the ball: its light goes on to the camera by the lobe.
+        desc.objects.push(lamp(sphere([-0.9, 1.9, -1.4], 0.5), 4.0).into());
+        assert_like_path(name, &desc, [160, 120]);
+    }
+}
+
+/// Of a point, photons alone find the caustic: its glints must not be left to paths that cannot meet it.
+#[test]
+fn glossy_floors_reflect_the_whole_caustic_of_a_point() {
+    let amount = PointAmount::Intensity([4.0; 3]);
+    for (name, floor) in glossy_floors() {
+        let mut desc = on_floor(floor, glass());
+        desc.lights.push(Light::from(LightKind::Point { position: [-0.9, 1.9, -1.4], amount }).into());
+        desc.sppm.photons = Some(40_000);
+        let caustic = |integrator, passes| {
+            Moments::of(runs(&desc, integrator, 16, passes, |film| mean(film, Layer::Caustic)))
+        };
+        let expected = caustic(IntegratorKind::Sppm, 60);
+        assert_same_within(name, &caustic(AUTO, 120), &expected, 0.01, 1.1);
     }
 }
 
