@@ -80,7 +80,7 @@ pub fn drive(mut session: Session, how: Drive<'_>, interrupt: &Interrupt) -> Out
         }
     }
     if let Some(blank) = session.blank(info).filter(|_| session.done() > 0) {
-        progress.warn(&format!("{blank}\n  = help: {}", blank.help()));
+        progress.warn(&format!("{}\n  = help: {}", blank.message, blank.help.unwrap_or_default()));
     }
     say_end(&progress, &session, goal, result.as_ref().ok().copied(), start.elapsed());
     if result == Ok(nephroid::Outcome::Stopped) && code == OK {

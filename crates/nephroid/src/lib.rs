@@ -54,9 +54,9 @@ pub use scenefile::{
     parse, render_all, shape_kind, to_toml, topics,
 };
 pub use session::{
-    Blank, Checkpoint, CheckpointError, CheckpointErrorKind, CheckpointFile, CheckpointInfo, CompileError,
-    Compiled, Control, Crop, DenoiseError, Denoised, Denoiser, Event, Extent, Job, LutFileError, MergeError,
-    Outcome, Output, OutputKind, Overrides, Phase, PictureError, PictureInfo, Places, Remaining, ReplayError,
+    Checkpoint, CheckpointError, CheckpointErrorKind, CheckpointFile, CheckpointInfo, CompileError, Compiled,
+    Control, Crop, DenoiseError, Denoised, Denoiser, Event, Extent, Job, LutFileError, MergeError, Outcome,
+    Output, OutputKind, Overrides, Phase, PictureError, PictureInfo, Places, Remaining, ReplayError,
     ReplayKey, Replayed, Resumed, SceneHash, Session, SessionError, Timings, Wanted, Warning, check_outputs,
     compile, film_bytes, gaps, is_same_file, merge, overwritten_inputs, read_lut, replay, resume, said,
     scene_hash, settings, survey, write_checkpoint,

@@ -12,10 +12,9 @@ impl Scene {
     pub fn is_turned_away(&self, id: LightId) -> bool {
         let bounds = self.bounds();
         let slack = 1e-4 * bounds.size().length();
-        let points = bounds.corners().into_iter().chain([self.camera().position()]);
-        let points: Vec<_> = points.collect();
+        let eye = [self.camera().position()];
         let behind = |le: LeSample| {
-            le.n != math::Vec3::ZERO && points.iter().all(|&point| (point - le.p).dot(le.n) <= slack)
+            bounds.corners().into_iter().chain(eye).all(|point| (point - le.p).dot(le.n) <= slack)
         };
         !self.light(id).is_infinite() && !self.light(id).is_delta() && self.emission(id).all(behind)
     }

@@ -1,35 +1,8 @@
-use std::fmt;
-
 use film::{Film, Layer};
 use scene::Scene;
+use scenefile::Diagnostic;
 
 use crate::PictureInfo;
-
-/// Why a picture shows nothing, and what to do; shown as one sentence, with [`Self::help`] apart.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Blank {
-    /// The code of the warning, as `describe errors` lists it.
-    pub code: &'static str,
-    message: String,
-    help: String,
-}
-
-impl Blank {
-    /// What to do.
-    pub fn help(&self) -> &str {
-        &self.help
-    }
-
-    fn new(code: &'static str, message: impl Into<String>, help: impl Into<String>) -> Option<Self> {
-        Some(Self { code, message: message.into(), help: help.into() })
-    }
-}
-
-impl fmt::Display for Blank {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.message)
-    }
-}
 
 /// What the brightest pixel of a dark picture and the darkest of a white one is after exposure: black and white under every
 /// view.
@@ -39,11 +12,11 @@ const WHITE: f32 = 16.0;
 const NEARLY_ALL: f32 = 0.95;
 
 /// Why the picture of `film` is black or white all over; `None` where it is not.
-pub(crate) fn blank(film: &Film, scene: &Scene, info: &PictureInfo) -> Option<Blank> {
+pub(crate) fn blank(film: &Film, scene: &Scene, info: &PictureInfo) -> Option<Diagnostic> {
     let luminance: Vec<f32> = film.beauty().into_iter().map(color::luminance).collect();
     let brightest = luminance.iter().copied().fold(0.0, f32::max);
     if brightest == 0.0 {
-        return unlit(film, scene);
+        return Some(unlit(film, scene));
     }
     let settled = info.settle(film);
     if settled.is_automatic {
@@ -55,7 +28,7 @@ pub(crate) fn blank(film: &Film, scene: &Scene, info: &PictureInfo) -> Option<Bl
     if exposed(brightest) < DARK {
         let message = format!("the picture is black: its brightest pixel is {brightest:.1e}, {set}");
         let try_this = steps(exposed(brightest), 1.0).round();
-        return Blank::new("picture-dark", message, try_exposure(try_this));
+        return Some(Diagnostic::warning("picture-dark", message).help(try_exposure(try_this)));
     }
     let white = luminance.iter().filter(|&&l| exposed(l) >= WHITE).count() as f32;
     if white >= NEARLY_ALL * luminance.len() as f32 {
@@ -65,7 +38,7 @@ pub(crate) fn blank(film: &Film, scene: &Scene, info: &PictureInfo) -> Option<Bl
         let message =
             format!("the picture is white: half of its pixels are brighter than {median:.1e}, {set}");
         let try_this = steps(exposed(median), 0.18).round();
-        return Blank::new("picture-white", message, try_exposure(try_this));
+        return Some(Diagnostic::warning("picture-white", message).help(try_exposure(try_this)));
     }
     None
 }
@@ -75,33 +48,34 @@ fn try_exposure(ev: f32) -> String {
 }
 
 /// Why no light at all reached the film.
-fn unlit(film: &Film, scene: &Scene) -> Option<Blank> {
-    const CODE: &str = "picture-dark";
+fn unlit(film: &Film, scene: &Scene) -> Diagnostic {
+    let dark = |why: &str, help: &str| {
+        Diagnostic::warning("picture-dark", format!("the picture is black: {why}")).help(help)
+    };
     if !film.layer(Layer::Depth).iter().any(|depth| depth.is_finite()) {
         let [eye, middle] = [scene.camera().position(), scene.bounds().center()].map(|p| p.to_array());
-        return Blank::new(
-            CODE,
-            format!("the picture is black: the camera at {eye:?} sees no surface"),
-            format!("the middle of what there is lies at {middle:?}: look there, `--camera X,Y,Z:X,Y,Z:FOV`"),
+        return dark(
+            &format!("the camera at {eye:?} sees no surface"),
+            &format!(
+                "the middle of what there is lies at {middle:?}: look there, `--camera X,Y,Z:X,Y,Z:FOV`"
+            ),
         );
     }
     if scene.lights().is_empty() {
         let help = "give an object `radiance` or `lumens`, or add one of [[lights]]";
-        return Blank::new(CODE, "the picture is black: nothing emits light", help);
+        return dark("nothing emits light", help);
     }
     let idle: Vec<_> =
         scene.light_ids().filter(|&id| scene.meets_nothing(id)).map(|id| scene.light_name(id)).collect();
     if let [first, ..] = idle.as_slice() {
         let all = if idle.len() > 1 { format!(" and {} more", idle.len() - 1) } else { String::new() };
-        return Blank::new(
-            CODE,
-            format!("the picture is black: what `{first}`{all} sends out meets nothing"),
+        return dark(
+            &format!("what `{first}`{all} sends out meets nothing"),
             "light leaves a surface on the side of its normal: turn it with `flip_normals = true`",
         );
     }
-    Blank::new(
-        CODE,
-        "the picture is black: there is light, but none of it reaches what the camera sees",
+    dark(
+        "there is light, but none of it reaches what the camera sees",
         "look for a closed wall between, a lamp inside of a solid, or surfaces of colour 0",
     )
 }
@@ -129,7 +103,7 @@ mod tests {
         session.run(&mut |_| Control::Continue).unwrap();
         session
             .blank(&PictureInfo::new(&desc, crate::scene_hash(&desc).unwrap()))
-            .map(|blank| format!("{blank} / {}", blank.help()))
+            .map(|blank| format!("{} / {}", blank.message, blank.help.unwrap_or_default()))
     }
 
     fn sky(desc: &mut SceneDesc, radiance: f32) {

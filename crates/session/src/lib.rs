@@ -29,7 +29,6 @@ mod session;
 mod settings;
 mod surroundings;
 
-pub use blank::Blank;
 pub use checkpoint::{
     Checkpoint, CheckpointError, CheckpointErrorKind, CheckpointFile, CheckpointInfo, MergeError, ReadScene,
     SceneSource, merge, write_checkpoint,

@@ -8,8 +8,9 @@ use film::{Film, FilmError};
 use integrators::{Integrator, Maps};
 use par::Workers;
 use scene::Scene;
+use scenefile::Diagnostic;
 
-use crate::blank::{Blank, blank};
+use crate::blank::blank;
 use crate::checkpoint::{CheckpointFile, CheckpointInfo, Saver};
 use crate::grain::Goal;
 use crate::job::{check_memory, has_end, layer_bytes};
@@ -227,7 +228,7 @@ impl Session {
     }
 
     /// Why the picture is black or white all over, as `info` shows it; `None` where it is not.
-    pub fn blank(&self, info: &PictureInfo) -> Option<Blank> {
+    pub fn blank(&self, info: &PictureInfo) -> Option<Diagnostic> {
         blank(&self.film, &self.scene, info)
     }
 
