@@ -56,7 +56,7 @@ pub(crate) fn lamp_warnings(scene: &Scene) -> Vec<Diagnostic> {
 #[cfg(test)]
 mod tests {
     use scenefile::SceneDesc;
-    use scenefile::desc::{Camera, Emission, Light, LightKind, Material, Object, Shape};
+    use scenefile::desc::{Camera, Emission, Group, Instance, Light, LightKind, Material, Object, Shape};
 
     fn warnings(material: Material, radius: f32, more: impl FnOnce(&mut SceneDesc)) -> Vec<String> {
         let camera = Camera { position: [0.0, 0.0, 4.0], ..Camera::default() };
@@ -116,6 +116,16 @@ mod tests {
         assert_eq!(of(tube(false), Material::diffuse(0.5)), Vec::<String>::new());
         let pane = Shape::Disk { center: [5.0, 0.0, 0.0], normal: [0.0, 1.0, 0.0], radius: 1.0 };
         assert!(of(pane, glass())[0].contains("open surface"));
+        // Lamps of groups are placed for each instance; a fault of theirs is one.
+        let lamps = warnings(Material::diffuse(0.5), 1.0, |desc| {
+            let emission = Some(Emission::radiance([5.0; 3]).into());
+            let lamp = Object { emission, ..Object::new(tube(false), glass()) };
+            desc.groups.insert("lamps".into(), Group { objects: vec![lamp.into()] }.into());
+            let group =
+                || Instance { name: None, group: "lamps".into(), transform: Vec::new(), material: None };
+            desc.instances.extend([group().into(), group().into()]);
+        });
+        assert_eq!(lamps.iter().filter(|text| text.contains("open surface")).count(), 1);
     }
 
     #[test]

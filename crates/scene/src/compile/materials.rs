@@ -427,7 +427,7 @@ impl<'d> Library<'d> {
         }
     }
 
-    /// A texture, as factor on emission.
+    /// A texture whose numbers count as they are: a factor on emission, heights.
     pub fn texture(&mut self, name: &'d Sourced<String>) -> Option<u32> {
         self.textures.get(name, Reading::Plain)
     }

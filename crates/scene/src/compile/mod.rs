@@ -181,6 +181,12 @@ impl<'d> Compiler<'d> {
             .iter()
             .map(|o| o.displacement.as_ref().and_then(|d| self.library.texture(&d.texture)))
             .collect();
+        // Surfaces of one material may close one another. Placed again for an instance, objects have been looked at.
+        let mut uses: BTreeMap<u32, u32> = BTreeMap::new();
+        materials.iter().for_each(|id| *uses.entry(id.0).or_default() += 1);
+        let fills_alone = |id: MaterialId| uses.get(&id.0) == Some(&1) && self.library.is_filling(id);
+        let must_close: Vec<bool> =
+            materials.iter().map(|&id| instance.is_none() && fills_alone(id)).collect();
         let (desc, textures) = (self.desc, self.library.textures());
         let solids = par::map(objects.len(), |i| {
             let displacer = displaced[i].zip(objects[i].displacement.as_ref()).zip(pixels);
@@ -192,29 +198,26 @@ impl<'d> Compiler<'d> {
                 within,
             });
             let solid = shapes::build(desc, objects[i], displacer)?;
+            let told = if must_close[i] { open_solid(objects[i], &solid) } else { None };
             match instance {
-                None => Ok(solid),
-                Some(t) => Ok(solid.transformed(t)),
+                None => Ok((solid, told)),
+                Some(t) => Ok((solid.transformed(t), told)),
             }
         });
-        let alone = |id: MaterialId| materials.iter().filter(|&&other| other == id).count() == 1;
         let mut placed = Vec::new();
-        for ((solid, object), &material) in solids.into_iter().zip(objects.iter().copied()).zip(&materials) {
-            if let Ok(solid) = &solid
-                && self.library.is_filling(material)
-                && alone(material)
-            {
-                self.diagnostics.extend(open_solid(object, solid));
-            }
+        for ((solid, object), material) in solids.into_iter().zip(objects.iter().copied()).zip(materials) {
             match solid {
-                Ok(solid) => placed.push(Placed {
-                    solid,
-                    material,
-                    emission: object.emission.as_ref(),
-                    name: object.name.clone().unwrap_or_default(),
-                    light_group: object.light_group.clone().or_else(|| object.name.clone()),
-                    span: object.span,
-                }),
+                Ok((solid, told)) => {
+                    self.diagnostics.extend(told);
+                    placed.push(Placed {
+                        solid,
+                        material,
+                        emission: object.emission.as_ref(),
+                        name: object.name.clone().unwrap_or_default(),
+                        light_group: object.light_group.clone().or_else(|| object.name.clone()),
+                        span: object.span,
+                    });
+                }
                 Err(diagnostic) => self.diagnostics.push(diagnostic),
             }
         }
