@@ -4,9 +4,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-use image::codecs::jpeg::JpegEncoder;
-
-use crate::{Outcome, gallery, root};
+use crate::{Outcome, pictures, root};
 
 /// Recipes: the page's name, and the scene below scenes/cookbook/.
 pub const RECIPES: [(&str, &str); 10] = [
@@ -46,7 +44,7 @@ pub fn run(arguments: &[String]) -> Outcome {
                 let all = RECIPES.map(|recipe| recipe.0).join(", ");
                 return Err(format!("no recipe is called `{name}`; there are {all}"));
             }
-            let nephroid = gallery::build()?;
+            let nephroid = pictures::build()?;
             for (name, scene) in RECIPES {
                 if names.is_empty() || names.iter().any(|other| other == name) {
                     render(&nephroid, name, scene)?;
@@ -65,24 +63,13 @@ fn render(nephroid: &Path, name: &str, scene: &str) -> Outcome {
     words[0] = root().join(&words[0]).display().to_string();
     words.pop();
     let start = Instant::now();
-    let status = Command::new(nephroid)
-        .args(words)
-        .arg(&picture)
-        .status()
-        .map_err(|e| format!("{}: {e}", nephroid.display()))?;
-    if !status.success() {
-        return Err(format!("{name} was not rendered"));
-    }
+    pictures::render(name, Command::new(nephroid).args(words).arg(&picture))?;
     println!("{name}: {:.0} s", start.elapsed().as_secs_f64());
     jpeg(&picture, &root().join(format!("docs/cookbook/{name}.jpg")))
 }
 
 fn jpeg(from: &Path, to: &Path) -> Outcome {
-    let picture = image::open(from).map_err(|e| format!("{}: {e}", from.display()))?.to_rgb8();
-    let mut bytes = Vec::new();
-    JpegEncoder::new_with_quality(&mut bytes, QUALITY)
-        .encode_image(&picture)
-        .map_err(|e| format!("{}: {e}", to.display()))?;
+    let bytes = pictures::jpeg(&pictures::open(from)?, QUALITY)?;
     std::fs::write(to, bytes).map_err(|e| format!("{}: {e}", to.display()))
 }
 

@@ -1,9 +1,9 @@
 //! `cargo xtask gallery`: the small pictures of docs/gallery/, rendered from scenes/ by the release build.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
-use crate::{Outcome, root};
+use crate::{Outcome, pictures, root};
 
 /// A picture, and what it changes of its scene to be small and quick.
 struct Picture {
@@ -56,7 +56,7 @@ pub fn run(arguments: &[String]) -> Outcome {
         let names: Vec<_> = PICTURES.iter().map(Picture::name).collect();
         return Err(format!("no picture is called `{name}`; there are {}", names.join(", ")));
     }
-    let nephroid = build()?;
+    let nephroid = pictures::build()?;
     let folder = root().join("docs/gallery");
     std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     for picture in PICTURES {
@@ -67,35 +67,20 @@ pub fn run(arguments: &[String]) -> Outcome {
     weigh(&folder)
 }
 
-/// The release build of the command line, which lies beside this program.
-pub fn build() -> Result<PathBuf, String> {
-    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let status = Command::new(cargo)
-        .args(["build", "--quiet", "--release", "--package", "nephroid-cli"])
-        .current_dir(root())
-        .status()
-        .map_err(|e| format!("cargo does not start: {e}"))?;
-    if !status.success() {
-        return Err("the command line does not build".into());
-    }
-    let here = std::env::current_exe().map_err(|e| format!("this program cannot find itself: {e}"))?;
-    Ok(here.with_file_name(format!("nephroid{}", std::env::consts::EXE_SUFFIX)))
-}
-
 fn render(nephroid: &Path, picture: &Picture, folder: &Path) -> Outcome {
     let [width, height] = picture.size;
     let output = folder.join(format!("{}.png", picture.name()));
     println!("{}", picture.name());
-    let status = Command::new(nephroid)
-        .arg("render")
-        .arg(root().join("scenes").join(format!("{}.toml", picture.scene)))
-        .arg("--output")
-        .arg(output)
-        .args(["--size", &format!("{width}x{height}"), "--passes", &picture.passes.to_string()])
-        .args(["--set", &format!("photon_map.final_gather={}", picture.final_gather), "--quiet"])
-        .status()
-        .map_err(|e| format!("{}: {e}", nephroid.display()))?;
-    if status.success() { Ok(()) } else { Err(format!("{} was not rendered", picture.scene)) }
+    pictures::render(
+        picture.scene,
+        Command::new(nephroid)
+            .arg("render")
+            .arg(root().join("scenes").join(format!("{}.toml", picture.scene)))
+            .arg("--output")
+            .arg(output)
+            .args(["--size", &format!("{width}x{height}"), "--passes", &picture.passes.to_string()])
+            .args(["--set", &format!("photon_map.final_gather={}", picture.final_gather), "--quiet"]),
+    )
 }
 
 /// Holds the pictures to their sizes.

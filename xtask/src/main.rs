@@ -10,6 +10,7 @@ mod gallery;
 mod long;
 mod passes;
 mod perfume;
+mod pictures;
 mod reference;
 mod spheres;
 mod verify;

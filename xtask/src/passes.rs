@@ -5,7 +5,7 @@ use std::process::Command;
 
 use gif::{Encoder, Frame, Repeat};
 
-use crate::{Outcome, gallery, root};
+use crate::{Outcome, pictures, root};
 
 const SCENE: &str = "scenes/cookbook/coffee-cup.toml";
 const SIZE: [u16; 2] = [400, 300];
@@ -19,7 +19,7 @@ pub fn run(arguments: &[String]) -> Outcome {
     if !arguments.is_empty() {
         return Err("usage: cargo xtask passes".into());
     }
-    let nephroid = gallery::build()?;
+    let nephroid = pictures::build()?;
     let folder = root().join("target/passes");
     std::fs::create_dir_all(&folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let path = root().join("docs/cookbook/passes.gif");
@@ -28,16 +28,14 @@ pub fn run(arguments: &[String]) -> Outcome {
     gif.set_repeat(Repeat::Infinite).map_err(|e| e.to_string())?;
     for passes in (0..DOUBLINGS).map(|k| 1_u32 << k) {
         let picture = folder.join(format!("{passes}.png"));
-        let status = Command::new(&nephroid)
-            .arg(root().join(SCENE))
-            .args(["--size", &format!("{}x{}", SIZE[0], SIZE[1]), "--passes", &passes.to_string()])
-            .args(["--exposure", "-6.9", "--quiet", "-o"])
-            .arg(&picture)
-            .status()
-            .map_err(|e| format!("{}: {e}", nephroid.display()))?;
-        if !status.success() {
-            return Err(format!("{SCENE} was not rendered"));
-        }
+        pictures::render(
+            SCENE,
+            Command::new(&nephroid)
+                .arg(root().join(SCENE))
+                .args(["--size", &format!("{}x{}", SIZE[0], SIZE[1]), "--passes", &passes.to_string()])
+                .args(["--exposure", "-6.9", "--quiet", "-o"])
+                .arg(&picture),
+        )?;
         let mut picture = image::open(&picture).map_err(|e| e.to_string())?.to_rgba8();
         let [width, height] = SIZE.map(u32::from);
         let bar = width * (passes.ilog2() + 1) / DOUBLINGS;

@@ -9,10 +9,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use image::RgbImage;
-use image::codecs::jpeg::JpegEncoder;
 
-use crate::gallery::build;
-use crate::{Outcome, root};
+use crate::{Outcome, pictures, root};
 use list::{Ball, MATERIALS, PRESETS, SHAPES, TEXTURES};
 use pages::PAGES;
 
@@ -33,7 +31,7 @@ fn folder() -> PathBuf {
     root().join("docs/book/spheres")
 }
 
-fn pictures() -> PathBuf {
+fn page_folder() -> PathBuf {
     root().join("docs/book/pictures")
 }
 
@@ -44,9 +42,9 @@ pub fn run(arguments: &[String]) -> Outcome {
         return Err(format!("no picture is called `{name}`; there are {}", names.join(", ")));
     }
     let wanted = |name: &str| arguments.is_empty() || arguments.iter().any(|wanted| wanted == name);
-    let nephroid = build()?;
+    let nephroid = pictures::build()?;
     let work = root().join("target/spheres");
-    for folder in [&work, &folder(), &pictures()] {
+    for folder in [&work, &folder(), &page_folder()] {
         std::fs::create_dir_all(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     }
     studio::pictures(&work)?;
@@ -60,7 +58,7 @@ pub fn run(arguments: &[String]) -> Outcome {
     for page in PAGES.iter().filter(|page| wanted(page.name)) {
         let scene = work.join(page.name).with_extension("toml");
         let picture = render(&nephroid, &scene, &page.scene()?, page.arguments)?;
-        write(&pictures().join(page.name), &picture, MOST_OF_A_PAGE)?;
+        write(&page_folder().join(page.name), &picture, MOST_OF_A_PAGE)?;
     }
     Ok(())
 }
@@ -70,19 +68,18 @@ fn render(nephroid: &Path, scene: &Path, text: &str, arguments: &[&str]) -> Resu
     let png = scene.with_extension("png");
     println!("{}", scene.display());
     std::fs::write(scene, text).map_err(|e| format!("{}: {e}", scene.display()))?;
-    let status = Command::new(nephroid)
-        .arg("render")
-        .arg(scene)
-        .arg("--output")
-        .arg(&png)
-        .args(arguments)
-        .arg("--quiet")
-        .status()
-        .map_err(|e| format!("{}: {e}", nephroid.display()))?;
-    if !status.success() {
-        return Err(format!("{} was not rendered", scene.display()));
-    }
-    Ok(image::open(&png).map_err(|e| format!("{}: {e}", png.display()))?.into_rgb8())
+    let name = scene.display().to_string();
+    pictures::render(
+        &name,
+        Command::new(nephroid)
+            .arg("render")
+            .arg(scene)
+            .arg("--output")
+            .arg(&png)
+            .args(arguments)
+            .arg("--quiet"),
+    )?;
+    pictures::open(&png)
 }
 
 /// Writes the picture as JPEG, in the best quality that has no more than `most` bytes.
@@ -94,10 +91,7 @@ fn write(path: &Path, picture: &RgbImage, most: u64) -> Outcome {
 
 fn jpeg(picture: &RgbImage, most: u64) -> Result<Vec<u8>, String> {
     for quality in (30..=86).rev().step_by(4) {
-        let mut bytes = Vec::new();
-        JpegEncoder::new_with_quality(&mut bytes, quality)
-            .encode_image(picture)
-            .map_err(|e| format!("JPEG: {e}"))?;
+        let bytes = pictures::jpeg(picture, quality)?;
         if bytes.len() as u64 <= most {
             return Ok(bytes);
         }
@@ -162,7 +156,7 @@ mod tests {
         for page in PAGES {
             let text = std::fs::read_to_string(root().join(format!("docs/book/{}.md", page.name))).unwrap();
             assert!(text.contains(&format!("](pictures/{}.jpg)", page.name)), "{}", page.name);
-            assert!(pictures().join(page.name).with_extension("jpg").exists(), "{}", page.name);
+            assert!(page_folder().join(page.name).with_extension("jpg").exists(), "{}", page.name);
             // The page says the command that makes it.
             assert!(text.contains(&page.arguments.join(" ")), "{}", page.name);
             assert!(page.scene().unwrap().contains("[camera]"), "{}", page.name);

@@ -7,7 +7,7 @@ mod sheet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::gallery::build;
+use crate::pictures::build;
 use crate::{Outcome, root};
 use blocks::{agreement, shrunk};
 use list::{CASES, Case, Reference};
