@@ -11,15 +11,6 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// Every page with its text; paths from the root.
-fn pages() -> Vec<(PathBuf, String)> {
-    let read = |page: PathBuf| {
-        let text = std::fs::read_to_string(root().join(&page)).unwrap();
-        (page, text)
-    };
-    markdown::files(&root()).unwrap().into_iter().map(read).collect()
-}
-
 /// What is wrong with the blocks of a page, each with its place.
 fn wrong(page: &Path, text: &str) -> Vec<String> {
     let mut wrong = Vec::new();
@@ -146,11 +137,11 @@ fn mistakes(text: &str) -> Vec<String> {
 
 #[test]
 fn the_program_takes_what_pages_say() {
-    let pages = pages();
+    let pages = markdown::pages(&root()).unwrap();
     let found: Vec<String> = pages.iter().flat_map(|(page, text)| wrong(page, text)).collect();
     assert!(found.is_empty(), "{}", found.join("\n"));
     // The pages have been read: there is something to hold them to.
-    let blocks = pages.iter().flat_map(|(_, text)| markdown::blocks(text));
+    let blocks = pages.values().flat_map(|text| markdown::blocks(text));
     let (mut typed, mut scenes) = (0, 0);
     for block in blocks {
         typed += if block.language == "toml" { 0 } else { commands(&block).len() };

@@ -1,5 +1,6 @@
 //! Markdown as the tests of the documentation read it: code blocks, links and anchors.
 
+use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -54,6 +55,19 @@ pub fn files(root: &Path) -> io::Result<Vec<PathBuf>> {
     }
     found.sort();
     Ok(found)
+}
+
+/// All Markdown files below `root` with their texts, in the order of [`files`]; paths from there.
+///
+/// # Errors
+/// Where a folder or a file cannot be read, with its path.
+pub fn pages(root: &Path) -> Result<BTreeMap<PathBuf, String>, String> {
+    let error = |path: &Path, e: io::Error| format!("{}: {e}", path.display());
+    let read = |page: PathBuf| {
+        let text = std::fs::read_to_string(root.join(&page)).map_err(|e| error(&page, e))?;
+        Ok((page, text))
+    };
+    files(root).map_err(|e| error(root, e))?.into_iter().map(read).collect()
 }
 
 /// The mark that opens a fence on this line: three or more of ` or ~.

@@ -16,14 +16,7 @@ const MOST_OF_PICTURES: u64 = 12_000_000;
 
 /// What is wrong with any page of the repository at `root`, one line each.
 pub fn check(root: &Path) -> Outcome {
-    let files = markdown::files(root).map_err(|e| format!("{}: {e}", root.display()))?;
-    let mut pages = BTreeMap::new();
-    for file in files {
-        let text =
-            std::fs::read_to_string(root.join(&file)).map_err(|e| format!("{}: {e}", file.display()))?;
-        pages.insert(file, text);
-    }
-    let repository = Repository { root, pages };
+    let repository = Repository { root, pages: markdown::pages(root)? };
     let mut wrong = Vec::new();
     for (page, text) in &repository.pages {
         for link in markdown::links(text) {

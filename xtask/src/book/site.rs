@@ -1,5 +1,6 @@
 //! The site as it was built: every link of a page to a file of the site finds it.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::links::{is_elsewhere, resolved};
@@ -7,16 +8,19 @@ use crate::Outcome;
 
 /// What is wrong with the site in `folder`, one line each.
 pub fn check(folder: &Path) -> Outcome {
-    let mut wrong = Vec::new();
-    for page in pages(folder, Path::new(""))? {
-        // Its links start from the address that was not found.
-        if page == Path::new("404.html") {
-            continue;
-        }
+    let read = |page: PathBuf| {
         let text =
             std::fs::read_to_string(folder.join(&page)).map_err(|e| format!("{}: {e}", page.display()))?;
-        for target in targets(&text) {
-            if !leads(folder, &page, &target)? {
+        Ok((page, text))
+    };
+    let pages: BTreeMap<PathBuf, String> =
+        pages(folder, Path::new(""))?.into_iter().map(read).collect::<Result<_, String>>()?;
+    let site = Site { folder, pages };
+    let mut wrong = Vec::new();
+    // The links of the page for addresses that are not found start from those.
+    for (page, text) in site.pages.iter().filter(|(page, _)| *page != Path::new("404.html")) {
+        for target in targets(text) {
+            if !site.leads(page, &target) {
                 wrong.push(format!("{}: `{target}` is not there", page.display()));
             }
         }
@@ -24,22 +28,27 @@ pub fn check(folder: &Path) -> Outcome {
     if wrong.is_empty() { Ok(()) } else { Err(wrong.join("\n")) }
 }
 
-/// Whether a link of a page finds its file in the site, and there its anchor.
-fn leads(folder: &Path, page: &Path, target: &str) -> Result<bool, String> {
-    let (path, anchor) = target.split_once('#').unwrap_or((target, ""));
-    if is_elsewhere(path) || path.starts_with("data:") {
-        return Ok(true);
+struct Site<'a> {
+    folder: &'a Path,
+    /// Text by path from the folder.
+    pages: BTreeMap<PathBuf, String>,
+}
+
+impl Site<'_> {
+    /// Whether a link of a page finds its file in the site, and there its anchor.
+    fn leads(&self, page: &Path, target: &str) -> bool {
+        let (path, anchor) = target.split_once('#').unwrap_or((target, ""));
+        if is_elsewhere(path) || path.starts_with("data:") {
+            return true;
+        }
+        let file = if path.is_empty() { Some(page.to_owned()) } else { resolved(page, path) };
+        let Some(file) = file.filter(|file| self.folder.join(file).exists()) else { return false };
+        // The page that prints all chapters has their anchors in another form.
+        if anchor.is_empty() || page == Path::new("print.html") {
+            return true;
+        }
+        self.pages.get(&file).is_none_or(|text| text.contains(&format!("id=\"{anchor}\"")))
     }
-    let file = if path.is_empty() { Some(page.to_owned()) } else { resolved(page, path) };
-    let Some(file) = file.map(|file| folder.join(file)).filter(|file| file.exists()) else {
-        return Ok(false);
-    };
-    // The page that prints all chapters has their anchors in another form.
-    if anchor.is_empty() || page == Path::new("print.html") || file.extension().is_none_or(|e| e != "html") {
-        return Ok(true);
-    }
-    let text = std::fs::read_to_string(&file).map_err(|e| format!("{}: {e}", file.display()))?;
-    Ok(text.contains(&format!("id=\"{anchor}\"")))
 }
 
 /// The pages below `folder`, as paths from there.
@@ -55,7 +64,6 @@ fn pages(folder: &Path, below: &Path) -> Result<Vec<PathBuf>, String> {
             found.push(path);
         }
     }
-    found.sort();
     Ok(found)
 }
 

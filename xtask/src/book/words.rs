@@ -21,24 +21,22 @@ const GLOSSARY: &str = "docs/book/glossary.md";
 
 /// Banned words in the pages of docs/, one line each.
 pub fn check(root: &Path) -> Outcome {
-    let files = markdown::files(root).map_err(|e| format!("{}: {e}", root.display()))?;
+    let is_held = |page: &Path| page.starts_with("docs") && page != Path::new(GLOSSARY);
     let mut wrong = Vec::new();
-    for page in files.iter().filter(|page| page.starts_with("docs") && *page != Path::new(GLOSSARY)) {
-        let text =
-            std::fs::read_to_string(root.join(page)).map_err(|e| format!("{}: {e}", page.display()))?;
-        wrong
-            .extend(banned(&text).into_iter().map(|(line, why)| format!("{}:{line}: {why}", page.display())));
+    for (page, text) in markdown::pages(root)?.iter().filter(|(page, _)| is_held(page)) {
+        wrong.extend(banned(text).into_iter().map(|(line, why)| format!("{}:{line}: {why}", page.display())));
     }
     if wrong.is_empty() { Ok(()) } else { Err(wrong.join("\n")) }
 }
 
 /// Line, counted from 1, and what to write instead, for each banned word; one that is broken over two lines counts.
 fn banned(text: &str) -> Vec<(usize, String)> {
-    let flat = text.to_lowercase().replace('\n', " ");
+    let text = text.to_lowercase();
+    let flat = text.replace('\n', " ");
     let mut found = Vec::new();
     for (word, instead) in BANNED {
         for (at, _) in flat.match_indices(word) {
-            let line = 1 + text.to_lowercase()[..at].matches('\n').count();
+            let line = 1 + text[..at].matches('\n').count();
             found.push((line, format!("`{word}`: the glossary says {instead}")));
         }
     }
