@@ -106,6 +106,12 @@ struct Seen {
     radii: Vec<f32>,
 }
 
+impl Seen {
+    fn nothing() -> Self {
+        Self { blocks: vec![Block::default(); BLOCKS * BLOCKS], radii: Vec::new() }
+    }
+}
+
 /// What they found in a block of the picture, summed over its pixels.
 #[derive(Clone, Copy, Debug, Default)]
 struct Block {
@@ -138,7 +144,7 @@ fn look(settings: &Settings, scene: &Scene, maps: &Maps, pixels: f64) -> Seen {
     let others = Settings { seed: !settings.seed, ..settings.clone() };
     let [width, height] = scene.resolution().map(|n| n as usize);
     let batches = par::map_chunks(PIXELS, CHUNK, |range| {
-        let mut seen = Seen { blocks: vec![Block::default(); BLOCKS * BLOCKS], radii: Vec::new() };
+        let mut seen = Seen::nothing();
         for i in range {
             // Pixels fill the picture evenly, whatever its shape.
             let [u, v] = Strata::new(settings.seed, i as u64).point(0);
@@ -162,8 +168,7 @@ fn look(settings: &Settings, scene: &Scene, maps: &Maps, pixels: f64) -> Seen {
         }
         seen
     });
-    let none = Seen { blocks: vec![Block::default(); BLOCKS * BLOCKS], radii: Vec::new() };
-    batches.into_iter().fold(none, |mut sum, seen| {
+    batches.into_iter().fold(Seen::nothing(), |mut sum, seen| {
         sum.blocks.iter_mut().zip(&seen.blocks).for_each(|(sum, block)| *sum = sum.plus(block));
         sum.radii.extend(seen.radii);
         sum
